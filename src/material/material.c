@@ -57,8 +57,8 @@ void sphi_material_retain(sph_material *material) {
 void sphi_material_release(sph_material *material) {
   if (material == NULL || --material->references > 0) return;
   sph_context *ctx = material->object.ctx;
+  material->object.magic = 0; /* first: the callback may try to destroy the handle again */
   if (material->functions.destroy != NULL) material->functions.destroy(material->user);
-  material->object.magic = 0;
   sphi_free(ctx, material, sizeof *material);
   sphi_context_release(ctx);
 }
