@@ -11,25 +11,18 @@ typedef struct values {
   double dwdh;
 } values;
 
-static int is_length(double h)
-{
-  return h > 0.0 && isfinite(h);
-}
+static int is_length(double h) { return h > 0.0 && isfinite(h); }
 
-static double scale(const sph_kernel *kernel, double h)
-{
-  if (kernel->dim == 1)
-    return kernel->alpha / h;
+static double scale(const sph_kernel *kernel, double h) {
+  if (kernel->dim == 1) return kernel->alpha / h;
   return kernel->dim == 2 ? kernel->alpha / (h * h) : kernel->alpha / (h * h * h);
 }
 
 /* Outside the support nothing is multiplied, so that an h^d that underflows gives no NaN. */
-static values evaluate(const sph_kernel *kernel, double r, double h, int second)
-{
+static values evaluate(const sph_kernel *kernel, double r, double h, int second) {
   const double q = r / h;
   sphi_profile p = {0.0, 0.0, 0.0};
-  if (!(q < kernel->support))
-    return (values){0.0, 0.0, 0.0, 0.0};
+  if (!(q < kernel->support)) return (values){0.0, 0.0, 0.0, 0.0};
   if (second)
     p = sphi_kernel_profile2(kernel, q);
   else
@@ -39,37 +32,29 @@ static values evaluate(const sph_kernel *kernel, double r, double h, int second)
                   -a * (kernel->dim * p.w + q * p.dw) / h};
 }
 
-static int is_valid(const sph_kernel *kernel, double r, double h)
-{
+static int is_valid(const sph_kernel *kernel, double r, double h) {
   return sphi_is_kernel(kernel) && r >= 0.0 && is_length(h);
 }
 
-double sph_kernel_w(const sph_kernel *kernel, double r, double h)
-{
+double sph_kernel_w(const sph_kernel *kernel, double r, double h) {
   return is_valid(kernel, r, h) ? evaluate(kernel, r, h, 0).w : NAN;
 }
 
-double sph_kernel_dwdr(const sph_kernel *kernel, double r, double h)
-{
+double sph_kernel_dwdr(const sph_kernel *kernel, double r, double h) {
   return is_valid(kernel, r, h) ? evaluate(kernel, r, h, 0).dwdr : NAN;
 }
 
-double sph_kernel_d2wdr2(const sph_kernel *kernel, double r, double h)
-{
+double sph_kernel_d2wdr2(const sph_kernel *kernel, double r, double h) {
   return is_valid(kernel, r, h) ? evaluate(kernel, r, h, 1).d2wdr2 : NAN;
 }
 
-double sph_kernel_dwdh(const sph_kernel *kernel, double r, double h)
-{
+double sph_kernel_dwdh(const sph_kernel *kernel, double r, double h) {
   return is_valid(kernel, r, h) ? evaluate(kernel, r, h, 0).dwdh : NAN;
 }
 
-static sph_status check_distances(sph_context *ctx, int64_t n, const double *r, double h)
-{
-  if (n < 0)
-    return sphi_fail(ctx, SPH_ERR_ARG, "kernel: n is %lld, negative", (long long)n);
-  if (n > 0 && r == NULL)
-    return sphi_fail(ctx, SPH_ERR_ARG, "kernel: r is NULL");
+static sph_status check_distances(sph_context *ctx, int64_t n, const double *r, double h) {
+  if (n < 0) return sphi_fail(ctx, SPH_ERR_ARG, "kernel: n is %lld, negative", (long long)n);
+  if (n > 0 && r == NULL) return sphi_fail(ctx, SPH_ERR_ARG, "kernel: r is NULL");
   if (!is_length(h))
     return sphi_fail(ctx, SPH_ERR_ARG, "kernel: h is %g, not positive and finite", h);
   for (int64_t i = 0; i < n; i++)
@@ -80,24 +65,17 @@ static sph_status check_distances(sph_context *ctx, int64_t n, const double *r, 
 }
 
 sph_status sph_kernel_evaluate(const sph_kernel *kernel, int64_t n, const double *r, double h,
-                               double *w, double *dwdr, double *d2wdr2, double *dwdh)
-{
+                               double *w, double *dwdr, double *d2wdr2, double *dwdh) {
   sph_status status = sphi_check_handle(NULL, kernel, SPHI_MAGIC_KERNEL, "kernel");
-  if (status != SPH_OK)
-    return status;
+  if (status != SPH_OK) return status;
   status = check_distances(kernel->base.ctx, n, r, h);
-  if (status != SPH_OK)
-    return status;
+  if (status != SPH_OK) return status;
   for (int64_t i = 0; i < n; i++) {
     const values v = evaluate(kernel, r[i], h, d2wdr2 != NULL);
-    if (w != NULL)
-      w[i] = v.w;
-    if (dwdr != NULL)
-      dwdr[i] = v.dwdr;
-    if (d2wdr2 != NULL)
-      d2wdr2[i] = v.d2wdr2;
-    if (dwdh != NULL)
-      dwdh[i] = v.dwdh;
+    if (w != NULL) w[i] = v.w;
+    if (dwdr != NULL) dwdr[i] = v.dwdr;
+    if (d2wdr2 != NULL) d2wdr2[i] = v.d2wdr2;
+    if (dwdh != NULL) dwdh[i] = v.dwdh;
   }
   return SPH_OK;
 }

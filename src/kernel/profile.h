@@ -5,8 +5,7 @@
 
 #include "kernel_impl.h"
 
-static inline int sphi_is_kernel(const sph_kernel *kernel)
-{
+static inline int sphi_is_kernel(const sph_kernel *kernel) {
   return kernel != NULL && kernel->base.magic == SPHI_MAGIC_KERNEL;
 }
 
