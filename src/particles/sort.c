@@ -43,7 +43,7 @@ static uint64_t cell_key(double x, double cell) {
   double c = floor(x / cell);
   if (c > limit) c = limit;
   if (c < -limit) c = -limit;
-  return (uint64_t)((int64_t)c + (INT64_C(1) << 62));
+  return (uint64_t)(int64_t)c + (UINT64_C(1) << 62);
 }
 
 /* Write this axis' keys, counted from the lowest; returns the highest. */
