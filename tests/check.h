@@ -108,32 +108,31 @@ static CHECK_UNUSED void check_memory_at(int want_equal, const void *a, const vo
 #define assert_false(c) check_true_at((c) ? 0 : 1, "!(" #c ")", __FILE__, __LINE__)
 #define assert_non_null(p) check_true_at((p) != NULL, #p " is NULL", __FILE__, __LINE__)
 #define assert_null(p) check_true_at((p) == NULL, #p " is not NULL", __FILE__, __LINE__)
-#define assert_int_equal(a, b) \
-  check_int_at(1, (uintmax_t)(a), (uintmax_t)(b), __FILE__, __LINE__)
+#define assert_int_equal(a, b) check_int_at(1, (uintmax_t)(a), (uintmax_t)(b), __FILE__, __LINE__)
 #define assert_int_not_equal(a, b) \
   check_int_at(0, (uintmax_t)(a), (uintmax_t)(b), __FILE__, __LINE__)
-#define assert_ptr_equal(a, b)                                                                  \
-  check_int_at(1, (uintmax_t)(uintptr_t)(const void *)(a), (uintmax_t)(uintptr_t)(const void *)(b), \
-               __FILE__, __LINE__)
-#define assert_ptr_not_equal(a, b)                                                              \
-  check_int_at(0, (uintmax_t)(uintptr_t)(const void *)(a), (uintmax_t)(uintptr_t)(const void *)(b), \
-               __FILE__, __LINE__)
+#define assert_ptr_equal(a, b)                             \
+  check_int_at(1, (uintmax_t)(uintptr_t)(const void *)(a), \
+               (uintmax_t)(uintptr_t)(const void *)(b), __FILE__, __LINE__)
+#define assert_ptr_not_equal(a, b)                         \
+  check_int_at(0, (uintmax_t)(uintptr_t)(const void *)(a), \
+               (uintmax_t)(uintptr_t)(const void *)(b), __FILE__, __LINE__)
 #define assert_string_equal(a, b) check_string_at(1, (a), (b), __FILE__, __LINE__)
 #define assert_string_not_equal(a, b) check_string_at(0, (a), (b), __FILE__, __LINE__)
 #define assert_memory_equal(a, b, n) check_memory_at(1, (a), (b), (n), __FILE__, __LINE__)
 #define assert_memory_not_equal(a, b, n) check_memory_at(0, (a), (b), (n), __FILE__, __LINE__)
-#define assert_in_range(v, lo, hi)                                                       \
+#define assert_in_range(v, lo, hi)                                                      \
   check_true_at((uintmax_t)(v) >= (uintmax_t)(lo) && (uintmax_t)(v) <= (uintmax_t)(hi), \
                 #v " is outside [" #lo ", " #hi "]", __FILE__, __LINE__)
 #define fail() check_fail_here(__FILE__, __LINE__)
 #define skip() check_skip_here()
 #define print_message printf
 #define print_error(...) fprintf(stderr, __VA_ARGS__)
-#define fail_msg(...)             \
-  do {                            \
-    print_error("ERROR: ");       \
-    print_error(__VA_ARGS__);     \
-    print_error("\n");            \
+#define fail_msg(...)                    \
+  do {                                   \
+    print_error("ERROR: ");              \
+    print_error(__VA_ARGS__);            \
+    print_error("\n");                   \
     check_fail_here(__FILE__, __LINE__); \
   } while (0)
 
@@ -204,19 +203,18 @@ static CHECK_UNUSED void check_status_at(sph_status got, sph_status want, const 
 /* |a - b| <= tol * max(|a|, |b|); NaN never passes. */
 #define check_rel(a, b, tol) check_rel_at((a), (b), (tol), #a, __FILE__, __LINE__)
 /* The call answers this status; prints names when not. */
-#define check_status(expr, status) \
-  check_status_at((expr), (status), #expr, __FILE__, __LINE__)
+#define check_status(expr, status) check_status_at((expr), (status), #expr, __FILE__, __LINE__)
 #define check_ok(expr) check_status(expr, SPH_OK)
 
-#define SPH_TEST_MAIN(tests)                                                           \
-  int main(int argc, char **argv) {                                                    \
-    int check_count = (int)(sizeof(tests) / sizeof((tests)[0]));                       \
-    check_long_run = argc > 1 && strcmp(argv[1], "long") == 0;                         \
-    int check_failed = cmocka_run_group_tests((tests), NULL, NULL);                    \
-    if (check_failed < 0 || check_failed > check_count) check_failed = check_count;    \
-    fflush(stderr);                                                                    \
-    printf("%d passed, %d failed\n", check_count - check_failed, check_failed);        \
-    return check_failed != 0;                                                          \
+#define SPH_TEST_MAIN(tests)                                                        \
+  int main(int argc, char **argv) {                                                 \
+    int check_count = (int)(sizeof(tests) / sizeof((tests)[0]));                    \
+    check_long_run = argc > 1 && strcmp(argv[1], "long") == 0;                      \
+    int check_failed = cmocka_run_group_tests((tests), NULL, NULL);                 \
+    if (check_failed < 0 || check_failed > check_count) check_failed = check_count; \
+    fflush(stderr);                                                                 \
+    printf("%d passed, %d failed\n", check_count - check_failed, check_failed);     \
+    return check_failed != 0;                                                       \
   }
 
 #endif

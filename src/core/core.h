@@ -29,8 +29,10 @@ enum {
 sph_status sphi_check_handle(sph_context *ctx, const void *handle, uint32_t magic,
                              const char *name);
 
-/* Write the last-error sentence, pass it to the log hook at level ERROR, return `status`. No heap. ctx may be NULL. */
-sph_status sphi_fail(sph_context *ctx, sph_status status, const char *format, ...) SPHI_PRINTF(3, 4);
+/* Write the last-error sentence, pass it to the log hook at level ERROR, return `status`. No heap.
+ * ctx may be NULL. */
+sph_status sphi_fail(sph_context *ctx, sph_status status, const char *format, ...)
+    SPHI_PRINTF(3, 4);
 void sphi_log(sph_context *ctx, int32_t level, const char *format, ...) SPHI_PRINTF(3, 4);
 /* 0 to go on; SPH_ERR_CALLBACK (sentence written) when the host asked to stop. */
 sph_status sphi_progress(sph_context *ctx, double fraction, const char *what);
@@ -51,7 +53,8 @@ typedef struct sphi_buffer {
   void *ptr;
   size_t bytes;
 } sphi_buffer;
-/* Ensure at least `bytes`; contents are lost when it grows. SPH_OK or SPH_ERR_NOMEM with the old buffer intact. */
+/* Ensure at least `bytes`; contents are lost when it grows. SPH_OK or SPH_ERR_NOMEM with the old
+ * buffer intact. */
 sph_status sphi_buffer_reserve(sph_context *ctx, sphi_buffer *b, size_t bytes);
 void sphi_buffer_free(sph_context *ctx, sphi_buffer *b);
 
@@ -59,6 +62,10 @@ void sphi_buffer_free(sph_context *ctx, sphi_buffer *b);
  * defaults and is dst_size long. SPH_ERR_VERSION when unknown trailing bytes are nonzero,
  * SPH_ERR_ARG when the caller's size is smaller than a size_t. */
 sph_status sphi_options_read(sph_context *ctx, void *dst, size_t dst_size, const void *src);
+
+/* Body of the sph_*_options_init_sized() functions: copy the defaults, cut or zero-padded to the
+ * caller's size, and set the leading size member. Nothing when dst is NULL. */
+void sphi_options_init(void *dst, size_t size, const void *defaults, size_t defaults_size);
 
 /* Run body over [0, count). Serial when count <= grain or one worker. */
 void sphi_parallel(sph_context *ctx, int64_t count, int64_t grain, sph_loop_fn body, void *job);
