@@ -77,11 +77,11 @@ endif
 # --- sources
 ifdef FOLDERS
 SRC := $(sort $(foreach f,$(FOLDERS),$(wildcard src/$(f)/*.c)))
-MAP := $(BUILD)/libsph.map
 else
 SRC := $(sort $(wildcard src/*/*.c))
-MAP := lib/libsph.map
 endif
+# The committed list rules; without it, or for a part of the library, what exists is exported.
+MAP := $(if $(FOLDERS),$(BUILD)/libsph.map,$(or $(wildcard lib/libsph.map),$(BUILD)/libsph.map))
 OBJ := $(SRC:%.c=$(BUILD)/%.o)
 
 pick = $(if $(TESTS),$(filter $(foreach t,$(TESTS),%/test_$(t).c),$(1)),$(1))
