@@ -122,8 +122,13 @@ $(BUILD)/src/%.o: src/%.c $(BUILD)/flags
 	$(call say,CC,$<)
 	$(Q)$(CC) $(BASE) $(STRICT) -fPIC -fvisibility=hidden $(call isa_flags,$<) -MMD -MP -c $< -o $@
 
+# A source that comes or goes changes the libraries too.
+$(BUILD)/sources: FORCE
+	@mkdir -p $(@D)
+	@printf '%s\n' '$(SRC)' | cmp -s - $@ || printf '%s\n' '$(SRC)' > $@
+
 # The archive is made anew, or objects of deleted sources would stay in it.
-$(LIB_A): $(OBJ)
+$(LIB_A): $(OBJ) $(BUILD)/sources
 	@mkdir -p $(@D)
 	$(call say,AR,$@)
 	$(Q)rm -f $@ && $(AR) rcs $@ $(OBJ)
@@ -131,7 +136,7 @@ $(LIB_A): $(OBJ)
 $(BUILD)/libsph.map: $(LIB_A) $(HEADERS) tests/tools/make_map.sh
 	$(Q)CC='$(CC)' tests/tools/make_map.sh $(LIB_A) $@ /dev/null
 
-$(SO): $(OBJ) $(MAP)
+$(SO): $(OBJ) $(MAP) $(BUILD)/sources
 	@mkdir -p $(@D)
 	$(call say,LD,$@)
 	$(Q)$(CC) $(CFLAGS) -shared -fPIC -Wl,-soname,$(SONAME) -Wl,--version-script=$(MAP) $(DEFS) \
