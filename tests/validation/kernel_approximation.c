@@ -113,9 +113,9 @@ static int table_2_1(sph_context *ctx) {
                     (errors){0.6504, 1.2282}, source);
   failures += judge("dg_corrected_plain", 21, gradient_errors(ctx, &l, SPH_GRADIENT_PLAIN, 1),
                     (errors){0.8835, 1.6841}, source);
-  failures += judge("dg_corrected_difference", 21,
-                    gradient_errors(ctx, &l, SPH_GRADIENT_DIFFERENCE, 1), (errors){0.0940, 0.1410},
-                    source);
+  failures +=
+      judge("dg_corrected_difference", 21, gradient_errors(ctx, &l, SPH_GRADIENT_DIFFERENCE, 1),
+            (errors){0.0940, 0.1410}, source);
   failures += judge("dg_corrected_sum", 21, gradient_errors(ctx, &l, SPH_GRADIENT_SUM, 1),
                     (errors){1.6730, 3.2283}, source);
   teardown(&l);
