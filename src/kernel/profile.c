@@ -82,8 +82,8 @@ static const family families[] = {
 static void gaussian_constants(int32_t dim, int super, double *alpha, double *variance) {
   const double r = SPHI_GAUSSIAN_CUT;
   const double e = exp(-r * r);
-  const double j0 = 0.5 * sqrt(SPHI_PI) * erf(r);
-  const double j[3] = {j0, 0.5 * (1.0 - e), 0.5 * (j0 - r * e)};
+  const double first = 0.5 * sqrt(SPHI_PI) * erf(r);
+  const double j[3] = {first, 0.5 * (1.0 - e), 0.5 * (first - r * e)};
   const double sphere[3] = {2.0, 2.0 * SPHI_PI, 4.0 * SPHI_PI};
   const double c = 0.5 * pow(r, dim) * e;
   const double radial = j[dim - 1] + (super ? c : 0.0);
