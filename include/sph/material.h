@@ -42,9 +42,9 @@ enum {
  * are NULL are an SPH_ERR_ARG of the caller (not when n is 0). Arrays are the caller's, read and
  * not kept. Numbers are taken as they come: a NaN gives NaN for its own particle only. */
 typedef struct sph_material_block {
-  size_t size; /* set by sph_material_block_init() */
-  int32_t dim; /* 1, 2 or 3; default 0, which is refused */
-  int64_t n;   /* default 0 */
+  size_t size;                     /* set by sph_material_block_init() */
+  int32_t dim;                     /* 1, 2 or 3; default 0, which is refused */
+  int64_t n;                       /* default 0 */
   const double *velocity_gradient; /* n * dim * dim */
   const double *sigma;             /* n packed symmetric */
   const double *rho;               /* n */
@@ -70,7 +70,7 @@ typedef struct sph_material_functions {
 
 /* Fill *f with the defaults: every entry NULL. Since 0.1. */
 SPH_API void sph_material_functions_init_sized(sph_material_functions *f, size_t size);
-#define sph_material_functions_init(f)                                                       \
+#define sph_material_functions_init(f) \
   sph_material_functions_init_sized((f), sizeof(sph_material_functions))
 
 /* A host's own material; the table is copied, `user` is passed to every callback. *out is NULL

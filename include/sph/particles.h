@@ -50,7 +50,7 @@ typedef struct sph_particles_options {
 
 /* Fill *options with the defaults. Since 0.1. */
 SPH_API void sph_particles_options_init_sized(sph_particles_options *options, size_t size);
-#define sph_particles_options_init(options)                                                  \
+#define sph_particles_options_init(options) \
   sph_particles_options_init_sized((options), sizeof(sph_particles_options))
 
 /* Create an empty set. options NULL: 3-D, no capacity. *out is NULL on failure.
@@ -111,8 +111,8 @@ SPH_API sph_status sph_particles_sort(sph_particles *set, double cell, int64_t *
  * (1..31 characters, unique, also against the built-in ones) is copied. *field receives its id,
  * 64 and upwards in order of creation.
  * SPH_ERR_ARG, SPH_ERR_LIMIT (more than 64 host fields), SPH_ERR_NOMEM. Since 0.1. */
-SPH_API sph_status sph_particles_add_field(sph_particles *set, const char *name,
-                                           int32_t components, int32_t *field);
+SPH_API sph_status sph_particles_add_field(sph_particles *set, const char *name, int32_t components,
+                                           int32_t *field);
 
 /* Id of a field by name (built-in ones are "x", "v", "m", "rho", "h", "p", "c", "e", "sigma", "x0",
  * "a", "spacing"); -1 when there is none. Since 0.1. */

@@ -15,20 +15,23 @@ typedef struct hooke {
 } hooke;
 
 void sph_hooke_options_init_sized(sph_hooke_options *options, size_t size) {
-  const sph_hooke_options defaults = {.size = sizeof defaults,
-                                      .reduction = SPH_UNIAXIAL_STRESS,
-                                      .jaumann = 1};
+  const sph_hooke_options defaults = {
+      .size = sizeof defaults, .reduction = SPH_UNIAXIAL_STRESS, .jaumann = 1};
   sphi_material_init_sized(options, size, &defaults, sizeof defaults);
 }
 
 static int32_t reduction_dim(int32_t reduction) {
   switch (reduction) {
-    case SPH_UNIAXIAL_STRESS:
-    case SPH_UNIAXIAL_STRAIN: return 1;
-    case SPH_PLANE_STRESS:
-    case SPH_PLANE_STRAIN: return 2;
-    case SPH_SOLID: return 3;
-    default: return 0;
+  case SPH_UNIAXIAL_STRESS:
+  case SPH_UNIAXIAL_STRAIN:
+    return 1;
+  case SPH_PLANE_STRESS:
+  case SPH_PLANE_STRAIN:
+    return 2;
+  case SPH_SOLID:
+    return 3;
+  default:
+    return 0;
   }
 }
 

@@ -20,8 +20,8 @@ void sph_material_functions_init_sized(sph_material_functions *f, size_t size) {
   sphi_material_init_sized(f, size, &none, sizeof none);
 }
 
-sph_status sphi_material_make(sph_context *ctx, const sph_material_functions *functions,
-                              void *user, sph_material **out) {
+sph_status sphi_material_make(sph_context *ctx, const sph_material_functions *functions, void *user,
+                              sph_material **out) {
   sph_material *material = sphi_calloc(ctx, sizeof *material);
   if (material == NULL) return SPH_ERR_NOMEM;
   material->object.magic = SPHI_MAGIC_MATERIAL;
@@ -40,8 +40,7 @@ sph_status sph_material_create(sph_context *ctx, const sph_material_functions *f
   sph_status status = sphi_check_handle(NULL, ctx, SPHI_MAGIC_CONTEXT, "ctx");
   if (status != SPH_OK) return status;
   if (out == NULL || functions == NULL)
-    return sphi_fail(ctx, SPH_ERR_ARG, "material: %s is NULL",
-                     out == NULL ? "out" : "functions");
+    return sphi_fail(ctx, SPH_ERR_ARG, "material: %s is NULL", out == NULL ? "out" : "functions");
   sph_material_functions f = {.size = sizeof f};
   status = sphi_options_read(ctx, &f, sizeof f, functions);
   if (status != SPH_OK) return status;
@@ -71,10 +70,14 @@ void sph_material_destroy(sph_material *material) {
 int32_t sphi_material_has(const sph_material *material, int32_t property) {
   if (material == NULL) return 0;
   switch (property) {
-    case SPHI_MATERIAL_STRESS_RATE: return material->functions.stress_rate != NULL;
-    case SPHI_MATERIAL_PRESSURE: return material->functions.pressure != NULL;
-    case SPHI_MATERIAL_SOUND_SPEED: return material->functions.sound_speed != NULL;
-    default: return 0;
+  case SPHI_MATERIAL_STRESS_RATE:
+    return material->functions.stress_rate != NULL;
+  case SPHI_MATERIAL_PRESSURE:
+    return material->functions.pressure != NULL;
+  case SPHI_MATERIAL_SOUND_SPEED:
+    return material->functions.sound_speed != NULL;
+  default:
+    return 0;
   }
 }
 
@@ -82,9 +85,7 @@ uint32_t sphi_material_needs(const sph_material *material, int32_t property) {
   return material->needs[property];
 }
 
-int32_t sphi_material_dim(const sph_material *material) {
-  return material->dim;
-}
+int32_t sphi_material_dim(const sph_material *material) { return material->dim; }
 
 static const char *property_name(int32_t property) {
   static const char *const names[] = {"stress_rate", "pressure", "sound_speed"};
@@ -124,8 +125,7 @@ sph_status sphi_material_check_block(const sph_material *material, int32_t prope
   if (status != SPH_OK) return status;
   const char *missing = missing_array(material->needs[property], block);
   if (block->n > 0 && missing != NULL)
-    return sphi_fail(ctx, SPH_ERR_ARG, "%s: the material needs %s, which is NULL", name,
-                     missing);
+    return sphi_fail(ctx, SPH_ERR_ARG, "%s: the material needs %s, which is NULL", name, missing);
   return SPH_OK;
 }
 
@@ -152,8 +152,7 @@ sph_status sphi_material_sound_speed_quiet(const sph_material *material,
   return callback_status(material->functions.sound_speed(material->user, block, c));
 }
 
-sph_status sphi_material_fail(const sph_material *material, int32_t property,
-                              sph_status status) {
+sph_status sphi_material_fail(const sph_material *material, int32_t property, sph_status status) {
   if (status >= 0) return status;
   return sphi_fail(material->object.ctx, status, "%s: the material's callback failed",
                    property_name(property));
@@ -176,8 +175,8 @@ static sph_status check_call(const sph_material *material, int32_t property,
   return sphi_material_check_block(material, property, mine);
 }
 
-sph_status sph_material_stress_rate(const sph_material *material,
-                                    const sph_material_block *block, double *dsigma) {
+sph_status sph_material_stress_rate(const sph_material *material, const sph_material_block *block,
+                                    double *dsigma) {
   sph_material_block mine;
   sph_status status = check_call(material, SPHI_MATERIAL_STRESS_RATE, block, dsigma, &mine);
   if (status != SPH_OK) return status;
@@ -194,8 +193,8 @@ sph_status sph_material_pressure(const sph_material *material, const sph_materia
   return sphi_material_fail(material, SPHI_MATERIAL_PRESSURE, status);
 }
 
-sph_status sph_material_sound_speed(const sph_material *material,
-                                    const sph_material_block *block, double *c) {
+sph_status sph_material_sound_speed(const sph_material *material, const sph_material_block *block,
+                                    double *c) {
   sph_material_block mine;
   sph_status status = check_call(material, SPHI_MATERIAL_SOUND_SPEED, block, c, &mine);
   if (status != SPH_OK) return status;

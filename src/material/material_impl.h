@@ -7,11 +7,7 @@
 #include <sph/material.h>
 
 /* Properties a law may have. */
-enum {
-  SPHI_MATERIAL_STRESS_RATE = 0,
-  SPHI_MATERIAL_PRESSURE = 1,
-  SPHI_MATERIAL_SOUND_SPEED = 2
-};
+enum { SPHI_MATERIAL_STRESS_RATE = 0, SPHI_MATERIAL_PRESSURE = 1, SPHI_MATERIAL_SOUND_SPEED = 2 };
 
 /* Arrays of a block that a property reads, as bits. */
 enum { SPHI_NEEDS_GRADIENT = 1, SPHI_NEEDS_SIGMA = 2, SPHI_NEEDS_RHO = 4, SPHI_NEEDS_E = 8 };
@@ -19,7 +15,7 @@ enum { SPHI_NEEDS_GRADIENT = 1, SPHI_NEEDS_SIGMA = 2, SPHI_NEEDS_RHO = 4, SPHI_N
 struct sph_material {
   sphi_object object;
   int64_t references;
-  int32_t dim;      /* the only dimension the law is for; 0 = any */
+  int32_t dim;       /* the only dimension the law is for; 0 = any */
   uint32_t needs[3]; /* by property; 0 for a host's law, which checks for itself */
   sph_material_functions functions;
   void *user;
@@ -54,8 +50,8 @@ sph_status sphi_material_sound_speed_quiet(const sph_material *material,
 sph_status sphi_material_fail(const sph_material *material, int32_t property, sph_status status);
 
 /* Make a handle. On failure `user` stays the caller's. */
-sph_status sphi_material_make(sph_context *ctx, const sph_material_functions *functions,
-                              void *user, sph_material **out);
+sph_status sphi_material_make(sph_context *ctx, const sph_material_functions *functions, void *user,
+                              sph_material **out);
 /* Fill an options struct of the caller's `size` from the library's defaults, which begin with
  * their size. */
 void sphi_material_init_sized(void *options, size_t size, const void *defaults, size_t known);

@@ -10,13 +10,18 @@ typedef struct builtin_field {
   int32_t components;
 } builtin_field;
 
-static const builtin_field builtins[SPHI_BUILTIN_FIELDS] = {
-    [SPH_FIELD_X] = {"x", VECTOR},       [SPH_FIELD_V] = {"v", VECTOR},
-    [SPH_FIELD_M] = {"m", 1},            [SPH_FIELD_RHO] = {"rho", 1},
-    [SPH_FIELD_H] = {"h", 1},            [SPH_FIELD_P] = {"p", 1},
-    [SPH_FIELD_C] = {"c", 1},            [SPH_FIELD_E] = {"e", 1},
-    [SPH_FIELD_SIGMA] = {"sigma", TENSOR}, [SPH_FIELD_X0] = {"x0", VECTOR},
-    [SPH_FIELD_A] = {"a", VECTOR},       [SPH_FIELD_SPACING] = {"spacing", 1}};
+static const builtin_field builtins[SPHI_BUILTIN_FIELDS] = {[SPH_FIELD_X] = {"x", VECTOR},
+                                                            [SPH_FIELD_V] = {"v", VECTOR},
+                                                            [SPH_FIELD_M] = {"m", 1},
+                                                            [SPH_FIELD_RHO] = {"rho", 1},
+                                                            [SPH_FIELD_H] = {"h", 1},
+                                                            [SPH_FIELD_P] = {"p", 1},
+                                                            [SPH_FIELD_C] = {"c", 1},
+                                                            [SPH_FIELD_E] = {"e", 1},
+                                                            [SPH_FIELD_SIGMA] = {"sigma", TENSOR},
+                                                            [SPH_FIELD_X0] = {"x0", VECTOR},
+                                                            [SPH_FIELD_A] = {"a", VECTOR},
+                                                            [SPH_FIELD_SPACING] = {"spacing", 1}};
 
 static int32_t resolve_components(int32_t code, int32_t dim) {
   if (code == VECTOR) return dim;
@@ -97,8 +102,7 @@ static size_t bounded_length(const char *name) {
   return n;
 }
 
-static sph_status check_new_field(const sph_particles *set, const char *name,
-                                  int32_t components) {
+static sph_status check_new_field(const sph_particles *set, const char *name, int32_t components) {
   sph_context *ctx = set->object.ctx;
   size_t length = bounded_length(name);
   if (length == 0 || length >= SPHI_FIELD_NAME)
@@ -174,8 +178,7 @@ static sph_status take_back(sph_particles *set, sphi_field *f) {
   return SPH_OK;
 }
 
-sph_status sph_particles_lend(sph_particles *set, int32_t field, double *array,
-                              int64_t capacity) {
+sph_status sph_particles_lend(sph_particles *set, int32_t field, double *array, int64_t capacity) {
   sph_status status = sphi_set_check(set);
   if (status != SPH_OK) return status;
   sphi_field *f = sphi_set_field(set, field);
@@ -204,8 +207,7 @@ sph_status sph_particles_touch(sph_particles *set, int32_t field) {
   sphi_field *f = sphi_set_field(set, field);
   if (f == NULL) return unknown_field(set, field, "touch");
   if (f->values == NULL)
-    return sphi_fail(set->object.ctx, SPH_ERR_ARG, "touch: field '%s' was never created",
-                     f->name);
+    return sphi_fail(set->object.ctx, SPH_ERR_ARG, "touch: field '%s' was never created", f->name);
   f->revision++;
   return SPH_OK;
 }

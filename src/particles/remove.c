@@ -3,13 +3,10 @@
 
 #include <string.h>
 
-static int marked(const uint64_t *marks, int64_t i) {
-  return (int)(marks[i >> 6] >> (i & 63)) & 1;
-}
+static int marked(const uint64_t *marks, int64_t i) { return (int)(marks[i >> 6] >> (i & 63)) & 1; }
 
 /* SPH_OK, or the sentence for the first index that is out of range or comes twice. */
-static sph_status mark_all(sph_particles *set, uint64_t *marks, int64_t n,
-                           const int64_t *indices) {
+static sph_status mark_all(sph_particles *set, uint64_t *marks, int64_t n, const int64_t *indices) {
   for (int64_t k = 0; k < n; k++) {
     int64_t i = indices[k];
     if (i < 0 || i >= set->count)
@@ -17,8 +14,8 @@ static sph_status mark_all(sph_particles *set, uint64_t *marks, int64_t n,
                        "remove: indices[%lld] = %lld is outside 0..%lld", (long long)k,
                        (long long)i, (long long)set->count - 1);
     if (marked(marks, i))
-      return sphi_fail(set->object.ctx, SPH_ERR_ARG,
-                       "remove: indices[%lld] = %lld comes twice", (long long)k, (long long)i);
+      return sphi_fail(set->object.ctx, SPH_ERR_ARG, "remove: indices[%lld] = %lld comes twice",
+                       (long long)k, (long long)i);
     marks[i >> 6] |= UINT64_C(1) << (i & 63);
   }
   return SPH_OK;
@@ -72,8 +69,7 @@ static sph_status check_remove(const sph_particles *set, int64_t n, const int64_
   sph_status status = sphi_set_check(set);
   if (status != SPH_OK) return status;
   if (n < 0)
-    return sphi_fail(set->object.ctx, SPH_ERR_ARG, "remove: n = %lld is negative",
-                     (long long)n);
+    return sphi_fail(set->object.ctx, SPH_ERR_ARG, "remove: n = %lld is negative", (long long)n);
   if (n > 0 && indices == NULL)
     return sphi_fail(set->object.ctx, SPH_ERR_ARG, "remove: indices is NULL");
   return SPH_OK;

@@ -112,10 +112,6 @@ const int64_t *sph_particles_ids(const sph_particles *set) {
   return sphi_set_check(set) == SPH_OK ? set->ids : NULL;
 }
 
-sph_context *sphi_particles_context(const sph_particles *set) {
-  return set->object.ctx;
-}
+sph_context *sphi_particles_context(const sph_particles *set) { return set->object.ctx; }
 
-const int32_t *sphi_particles_phases(const sph_particles *set) {
-  return set->phases;
-}
+const int32_t *sphi_particles_phases(const sph_particles *set) { return set->phases; }

@@ -22,7 +22,7 @@ typedef struct sort_job {
   int64_t n;
   entry *now, *next; /* sorted so far, and room for the next pass */
   size_t bytes;      /* of each of the two */
-  int64_t bad; /* first particle whose position is not finite */
+  int64_t bad;       /* first particle whose position is not finite */
 } sort_job;
 
 static void check_finite(void *user, int64_t begin, int64_t end, int32_t worker) {

@@ -11,9 +11,7 @@ typedef struct fresh_arrays {
   int64_t capacity;
 } fresh_arrays;
 
-static int owns_array(const sphi_field *f) {
-  return f->values != NULL && f->lent < 0;
-}
+static int owns_array(const sphi_field *f) { return f->values != NULL && f->lent < 0; }
 
 static sph_status fresh_alloc(const sph_particles *set, fresh_arrays *fresh) {
   sph_context *ctx = set->object.ctx;
@@ -129,11 +127,10 @@ static int64_t grown_capacity(const sph_particles *set, int64_t n) {
 
 static sph_status make_room(sph_particles *set, int64_t n, const char *call) {
   if (n < 0)
-    return sphi_fail(set->object.ctx, SPH_ERR_ARG, "%s: n = %lld is negative", call,
-                     (long long)n);
+    return sphi_fail(set->object.ctx, SPH_ERR_ARG, "%s: n = %lld is negative", call, (long long)n);
   /* n alone may be near INT64_MAX, so the sum waits until n is known to be small. */
-  sph_status status = n > SPHI_MAX_PARTICLES ? check_room(set, n, call)
-                                             : check_room(set, set->count + n, call);
+  sph_status status =
+      n > SPHI_MAX_PARTICLES ? check_room(set, n, call) : check_room(set, set->count + n, call);
   if (status != SPH_OK || set->count + n <= set->capacity) return status;
   return sphi_set_grow(set, grown_capacity(set, set->count + n));
 }

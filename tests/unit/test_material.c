@@ -102,8 +102,7 @@ static void oracle(int32_t reduction, double young, double nu, int jaumann, cons
   eliminate(d, reduction, young, nu);
   isotropic(d, young, nu, r);
   if (jaumann) add_rotation(full_l, full_s, r);
-  for (int c = 0; c < comps; c++)
-    out[c] = r[row_of[packed[dim][c]]][column_of[packed[dim][c]]];
+  for (int c = 0; c < comps; c++) out[c] = r[row_of[packed[dim][c]]][column_of[packed[dim][c]]];
 }
 
 static void check_against_oracle(sph_context *ctx, int32_t reduction, double nu, int jaumann) {
@@ -159,8 +158,7 @@ static void spin_gradient(int32_t dim, const double axis[3], double *l) {
     const double l2[4] = {0, -axis[2], axis[2], 0};
     memcpy(l, l2, sizeof l2);
   } else {
-    const double l3[9] = {0,       -axis[2], axis[1],  axis[2], 0,
-                          -axis[0], -axis[1], axis[0], 0};
+    const double l3[9] = {0, -axis[2], axis[1], axis[2], 0, -axis[0], -axis[1], axis[0], 0};
     memcpy(l, l3, sizeof l3);
   }
 }
@@ -179,8 +177,7 @@ static void rk4_step(const sph_material *m, int32_t dim, const double *l, double
 }
 
 /* R s R^T for a turn about the unit axis, by Rodrigues' formula. */
-static void turned(int32_t dim, const double axis[3], double angle, const double *s,
-                   double *out) {
+static void turned(int32_t dim, const double axis[3], double angle, const double *s, double *out) {
   const tensor k = {{0, -axis[2], axis[1]}, {axis[2], 0, -axis[0]}, {-axis[1], axis[0], 0}};
   tensor r, full = {{0}};
   const int comps = dim * (dim + 1) / 2;
@@ -440,8 +437,7 @@ static void test_quiet_calls(void **state) {
   assert_string_equal(sph_context_last_error(ctx), "");
   check_status(sphi_material_fail(m, SPHI_MATERIAL_PRESSURE, SPH_RETRY), SPH_RETRY);
   assert_string_equal(sph_context_last_error(ctx), "");
-  check_status(sphi_material_fail(m, SPHI_MATERIAL_PRESSURE, SPH_ERR_CALLBACK),
-               SPH_ERR_CALLBACK);
+  check_status(sphi_material_fail(m, SPHI_MATERIAL_PRESSURE, SPH_ERR_CALLBACK), SPH_ERR_CALLBACK);
   assert_non_null(strstr(sph_context_last_error(ctx), "pressure"));
   sph_material_destroy(m);
   sph_context_destroy(ctx);

@@ -117,9 +117,15 @@ static void test_random_operations(void **state) {
   memset(&m, 0, sizeof m);
   for (int round = 0; round < (check_long_run ? 3000 : 300); round++) {
     switch (random_below(5)) {
-      case 0: random_remove(set, &m); break;
-      case 1: random_sort(set, &m); break;
-      default: random_add(set, &m); break;
+    case 0:
+      random_remove(set, &m);
+      break;
+    case 1:
+      random_sort(set, &m);
+      break;
+    default:
+      random_add(set, &m);
+      break;
     }
     check_model(set, &m);
   }
@@ -161,8 +167,7 @@ static int before(const double *x, int32_t dim, double cell, int64_t a, int64_t 
   return a < b;
 }
 
-static void check_sorted(int32_t dim, double cell, const double *x, int64_t n,
-                         int32_t threads) {
+static void check_sorted(int32_t dim, double cell, const double *x, int64_t n, int32_t threads) {
   sph_context *ctx = make_context(threads);
   sph_particles *set = make_set(ctx, dim, n);
   double *mine = field(set, SPH_FIELD_X), *x0 = field(set, SPH_FIELD_X0);
@@ -198,8 +203,9 @@ static void test_sort_far_away(void **state) {
   (void)state;
   static double x[3000];
   for (int64_t k = 0; k < 3000; k++) x[k] = 20 * random_unit() - 10;
-  const double far[] = {1e30, -1e30, 1e300, -1e308, 1.7976931348623157e308, 1e15, -1e18,
-                        4e18, 5e18, 1e19, 0x1p62, -0x1p62, 0x1p63, 1e-320, -0.0};
+  const double far[] = {1e30,   -1e30,   1e300,  -1e308, 1.7976931348623157e308,
+                        1e15,   -1e18,   4e18,   5e18,   1e19,
+                        0x1p62, -0x1p62, 0x1p63, 1e-320, -0.0};
   for (int64_t k = 0; k < 15; k++) x[91 * k] = far[k];
   check_sorted(3, 1.0, x, 1000, 1);
   check_sorted(3, 1e-300, x, 1000, 2); /* quotients overflow to infinity */
