@@ -5,7 +5,7 @@
 
 sph_status sphi_kernel_new(sph_context *ctx, int32_t dim, sph_kernel **out) {
   if (out != NULL) *out = NULL;
-  const sph_status status = sphi_check_handle(ctx, ctx, SPHI_MAGIC_CONTEXT, "context");
+  const sph_status status = sphi_check_handle(NULL, ctx, SPHI_MAGIC_CONTEXT, "context");
   if (status != SPH_OK) return status;
   if (out == NULL) return sphi_fail(ctx, SPH_ERR_ARG, "kernel: out is NULL");
   if (dim < 1 || dim > 3)

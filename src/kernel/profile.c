@@ -115,23 +115,26 @@ static inline sphi_profile cubic_spline(double q) {
 
 /* Sun 2013 (6.1.7), whose first branch misplaces signs: printed, it integrates to 65/96. */
 static inline sphi_profile quartic_spline(double q) {
+  if (q < 0.5) /* multiplied out: the powers would cancel to O(q) in w' */
+    return (sphi_profile){14.375 + q * q * (6.0 * q * q - 15.0), q * (24.0 * q * q - 30.0),
+                          72.0 * q * q - 30.0};
   const double a = 2.5 - q;
   const double b = q < 1.5 ? 1.5 - q : 0.0;
-  const double c = q < 0.5 ? 0.5 - q : 0.0;
-  const double a2 = a * a, b2 = b * b, c2 = c * c;
-  return (sphi_profile){a2 * a2 - 5.0 * b2 * b2 + 10.0 * c2 * c2,
-                        -4.0 * a2 * a + 20.0 * b2 * b - 40.0 * c2 * c,
-                        12.0 * a2 - 60.0 * b2 + 120.0 * c2};
+  const double a2 = a * a, b2 = b * b;
+  return (sphi_profile){a2 * a2 - 5.0 * b2 * b2, -4.0 * a2 * a + 20.0 * b2 * b,
+                        12.0 * a2 - 60.0 * b2};
 }
 
 static inline sphi_profile quintic_spline(double q) {
+  const double s = q * q;
+  if (q < 1.0) /* multiplied out, as above */
+    return (sphi_profile){66.0 + s * (s * (30.0 - 10.0 * q) - 60.0),
+                          q * (s * (120.0 - 50.0 * q) - 120.0), s * (360.0 - 200.0 * q) - 120.0};
   const double a = 3.0 - q;
   const double b = q < 2.0 ? 2.0 - q : 0.0;
-  const double c = q < 1.0 ? 1.0 - q : 0.0;
-  const double a2 = a * a, b2 = b * b, c2 = c * c;
-  return (sphi_profile){a2 * a2 * a - 6.0 * b2 * b2 * b + 15.0 * c2 * c2 * c,
-                        -5.0 * a2 * a2 + 30.0 * b2 * b2 - 75.0 * c2 * c2,
-                        20.0 * a2 * a - 120.0 * b2 * b + 300.0 * c2 * c};
+  const double a2 = a * a, b2 = b * b;
+  return (sphi_profile){a2 * a2 * a - 6.0 * b2 * b2 * b, -5.0 * a2 * a2 + 30.0 * b2 * b2,
+                        20.0 * a2 * a - 120.0 * b2 * b};
 }
 
 static inline sphi_profile quadratic(double q) {
