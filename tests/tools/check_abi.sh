@@ -16,7 +16,7 @@ if [ "$mode" = record ]; then
   rm -rf lib/abi/include lib/abi/libsph-*.abi
   mkdir -p lib/abi/include
   cp -r include/sph lib/abi/include/
-  abidw --no-corpus-path --no-comp-dir-path --headers-dir include --drop-private-types \
+  abidw --no-corpus-path --no-comp-dir-path --headers-dir include \
     --out-file "lib/abi/libsph-$version.abi" "$so" || exit 1
   echo "recorded lib/abi/libsph-$version.abi"
   exit 0
