@@ -134,6 +134,15 @@ SPH_API sph_status sph_viscosity_bulk(sph_neighbors *list, const sph_kernel *ker
                                       const sph_operands *a, const sph_bulk_viscosity *options,
                                       double *q, double *dvdt);
 
+/* Gray's artificial stress from a stress state, He 2015 (3.22) to (3.26): in the frame of the
+ * principal stresses s_k, R_k = -epsilon s_k / rho^2 where s_k > 0, else 0, turned back. The angle is that of
+ * atan2 (tan 2 theta, as printed, loses the branch). rho NULL: rho0 everywhere. sigma and R:
+ * n packed symmetric tensors, which may be the same array. SPH_ERR_ARG: dim outside 1..3, n < 0, NULL, rho0 not positive,
+ * epsilon not finite. Pointwise, serial. Since 0.1. */
+SPH_API sph_status sph_artificial_stress(int32_t dim, int64_t n, const double *sigma,
+                                         const double *rho, double rho0, double epsilon,
+                                         double *R);
+
 /* XSPH: out_i = epsilon sum_j (m_j / rho_ij) (v_j - v_i) W_ij, rho_ij the pair mean, He 2015 (4.4); usual epsilon 0.5. out:
  * rows * dim, to be added to dx/dt. Since 0.1. */
 SPH_API sph_status sph_xsph(sph_neighbors *list, const sph_kernel *kernel, const sph_operands *a,

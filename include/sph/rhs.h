@@ -24,7 +24,8 @@ enum {
   SPH_TERM_BULK_VISCOSITY = 6,   /* -> rate of V; neumann, linear, spacing, alpha, beta (Hernquist-Katz) */
   SPH_TERM_XSPH = 7,             /* -> added to the rate of X; epsilon */
   SPH_TERM_BODY_FORCE = 8,       /* -> rate of V; vector */
-  SPH_TERM_MOTION = 9            /* -> rate of X = V */
+  SPH_TERM_MOTION = 9,           /* -> rate of X = V */
+  SPH_TERM_ARTIFICIAL_STRESS = 10 /* -> rate of V; epsilon, power, spacing_ratio (He 3.22) */
 };
 
 typedef struct sph_term {
@@ -36,6 +37,8 @@ typedef struct sph_term {
   double epsilon;     /* XSPH */
   double neumann, linear, spacing;
   double vector[3];   /* body force per mass */
+  int32_t power;      /* artificial stress: n of (W / W(dp))^n, 1..16; default 4 */
+  double spacing_ratio; /* artificial stress: dp / h, so that W(dp) follows each pair's h */
 } sph_term;
 SPH_API void sph_term_init_sized(sph_term *term, size_t size);
 #define sph_term_init(t) sph_term_init_sized((t), sizeof(sph_term))

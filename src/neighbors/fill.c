@@ -1,0 +1,369 @@
+/* Filling the pair list, in waves.
+ *
+ * Rows are of unknown length and must lie one after the other, on any number of threads. So
+ * chunks of rows are searched in parallel into slots of scratch memory, which stay in the
+ * cache; then their places are known, and the next wave begins by copying them there. The list
+ * depends on neither the cut into chunks nor the number of threads.
+ *
+ * A slot or a candidate buffer that is too small ends its chunk early: rows done so far count,
+ * what follows is searched again, with larger buffers. The pair array itself starts from an
+ * estimate (a sample of groups) and grows when that was too low. */
+#include "search.h"
+
+#include <string.h>
+
+enum {
+  CHUNK = 1024,              /* rows of a chunk, as long as slots suffice */
+  SLOTS_EACH = 4,            /* slots a worker: for balance */
+  FIRST_CANDIDATES = 4096,
+  SKEW = 80,                 /* so that candidate arrays do not start at the same cache sets */
+  SAMPLES = 96
+};
+
+static const int64_t first_slot = (int64_t)1 << 17; /* pairs */
+static const int64_t large_slot = (int64_t)1 << 22;
+
+typedef struct slot {
+  int64_t begin, end, done; /* rows: asked for, and first one not done */
+  int64_t count;            /* pairs found */
+  int64_t place;            /* where they go; -1: nothing to copy */
+  int64_t need_candidates, need_pairs;
+  int64_t ready, ready_end; /* rows that wait for copying */
+  int64_t ready_count;
+  char pad[48];
+} slot;
+
+typedef struct fill {
+  sph_neighbors *list;
+  sph_context *ctx;
+  sphi_layout *l;
+  sphi_pairs *p;
+  const sphi_search *search;
+  slot *slots;
+  int64_t slot_count;
+  int64_t next;  /* first row that is not yet placed */
+  int64_t total; /* pairs placed */
+  int64_t chunk;
+  int restore;
+} fill;
+
+/* --- one chunk --- */
+
+static sphi_candidates candidates_of(const fill *f, int32_t worker) {
+  size_t stride = (size_t)f->p->candidate_capacity + SPHI_CANDIDATE_PADDING + SKEW;
+  float *base = (float *)f->p->b_candidates.ptr + 5 * stride * (size_t)worker;
+  sphi_candidates c;
+  for (size_t a = 0; a < 3; a++) c.x[a] = base + a * stride;
+  c.s = base + 3 * stride;
+  c.index = (uint32_t *)(void *)(base + 4 * stride);
+  c.count = 0;
+  c.capacity = f->p->candidate_capacity;
+  return c;
+}
+
+static uint32_t *slot_memory(const fill *f, int64_t s) {
+  return (uint32_t *)f->p->b_slots.ptr + s * (f->p->slot_capacity + SPHI_CANDIDATE_PADDING);
+}
+
+/* The cell or leaf that holds a row; 0 for all pairs. */
+static uint32_t home_of(const sphi_layout *l, int64_t row) {
+  if (l->method == SPH_NEIGHBORS_TREE) return sphi_tree_leaf_at(&l->tree, (uint32_t)row);
+  if (l->method == SPH_NEIGHBORS_ALL_PAIRS) return 0;
+  return sphi_cells_at(&l->cells, (uint32_t)row);
+}
+
+/* End of the group that begins at a row, which may lie beyond the present home. */
+static int64_t group_end(const sphi_layout *l, int64_t row, int64_t end, uint32_t *home) {
+  int64_t stop = row + SPHI_BLOCK;
+  if (l->method != SPH_NEIGHBORS_ALL_PAIRS) {
+    const uint32_t *first = l->method == SPH_NEIGHBORS_TREE ? l->tree.leaf : l->cells.first;
+    while (first[*home + 1] <= row) ++*home;
+    stop = first[*home + 1];
+  }
+  return stop < end ? stop : end;
+}
+
+/* Next candidate ranges of a group; 0 when there are no more. */
+static int next_ranges(const sphi_group *g, uint32_t home, uint32_t *cursor, sphi_range *out) {
+  const sphi_layout *l = g->l;
+  if (l->method == SPH_NEIGHBORS_TREE)
+    return sphi_tree_ranges(&l->tree, &l->rule, g->center, g->half, g->s, -1.0, cursor, out);
+  if ((*cursor)++ > 0) return 0;
+  if (l->method != SPH_NEIGHBORS_ALL_PAIRS)
+    return sphi_cells_ranges(&l->cells, l->dim, home, out);
+  out[0] = (sphi_range){0, (uint32_t)l->n};
+  return 1;
+}
+
+static int64_t length_of(const sphi_range *r, int count) {
+  int64_t sum = 0;
+  for (int k = 0; k < count; k++) sum += r[k].end - r[k].begin;
+  return sum;
+}
+
+/* Gather the candidates of a group: 0, or the capacity that would be needed so far. */
+static int64_t gather(const sphi_search *search, const sphi_group *g, uint32_t home,
+                      sphi_candidates *c) {
+  sphi_range ranges[SPHI_MAX_RANGES];
+  uint32_t cursor = 0;
+  int n;
+  c->count = 0;
+  while ((n = next_ranges(g, home, &cursor, ranges)) > 0) {
+    int64_t most = c->count + length_of(ranges, n);
+    if (most > c->capacity) return most;
+    search->gather(g, ranges, n, c);
+  }
+  return 0;
+}
+
+static void search_chunk(const fill *f, slot *s, uint32_t *out, int32_t worker) {
+  sphi_candidates c = candidates_of(f, worker);
+  uint32_t home = home_of(f->l, s->begin);
+  sphi_group g;
+  s->done = s->begin;
+  s->count = s->need_candidates = s->need_pairs = 0;
+  while (s->done < s->end) {
+    int64_t end = group_end(f->l, s->done, s->end, &home), done;
+    sphi_group_set(&g, f->l, s->done, end);
+    const sphi_search *search = g.scale > 0.0 ? f->search : &sphi_search_exact;
+    s->need_candidates = gather(search, &g, home, &c);
+    if (s->need_candidates > 0) return;
+    done = search->rows(&g, &c, out, f->p->slot_capacity, &s->count, f->l->start);
+    s->done += done;
+    if (s->done == end) continue;
+    s->need_pairs = c.count + SPHI_CANDIDATE_PADDING;
+    return;
+  }
+}
+
+/* Put a finished chunk in its place. */
+static void place_chunk(const fill *f, slot *s, const uint32_t *from) {
+  memcpy(f->list->pair + s->place, from, (size_t)s->ready_count * sizeof *from);
+  for (int64_t i = s->ready; i < s->ready_end; i++) f->l->start[i] += s->place;
+  s->place = -1;
+}
+
+static void wave_body(void *job, int64_t begin, int64_t end, int32_t worker) {
+  const fill *f = job;
+  for (int64_t k = begin; k < end; k++) {
+    slot *s = &f->slots[k];
+    uint32_t *memory = slot_memory(f, k);
+    if (s->place >= 0) place_chunk(f, s, memory);
+    if (s->begin < s->end) search_chunk(f, s, memory, worker);
+  }
+}
+
+/* --- memory --- */
+
+static sph_status reserve_buffers(fill *f) {
+  sphi_pairs *p = f->p;
+  size_t stride = (size_t)p->candidate_capacity + SPHI_CANDIDATE_PADDING + SKEW;
+  size_t each = (size_t)p->slot_capacity + SPHI_CANDIDATE_PADDING;
+  size_t workers = (size_t)sphi_workers(f->ctx);
+  sph_status s = sphi_buffer_reserve(f->ctx, &p->b_candidates,
+                                     sphi_mul(workers * 5 * sizeof(float), stride));
+  if (s == SPH_OK)
+    s = sphi_buffer_reserve(f->ctx, &p->b_slots,
+                            sphi_mul((size_t)f->slot_count * sizeof(uint32_t), each));
+  return s;
+}
+
+static int64_t pair_capacity(const sphi_pairs *p) {
+  return (int64_t)(p->b_pair.bytes / sizeof(uint32_t)) - SPHI_ROW_PADDING;
+}
+
+/* Room for `need` pairs, keeping what is placed. The old array stays until the new one is there. */
+static sph_status grow_pairs(fill *f, int64_t need, int64_t placed) {
+  sphi_buffer old = f->p->b_pair, new = {NULL, 0};
+  size_t bytes = sphi_mul((size_t)need + SPHI_ROW_PADDING, sizeof(uint32_t));
+  sph_status s = sphi_buffer_reserve(f->ctx, &new, bytes);
+  if (s != SPH_OK) return s;
+  if (placed > 0) memcpy(new.ptr, old.ptr, (size_t)placed * sizeof(uint32_t));
+  f->p->b_pair = new;
+  f->list->pair = new.ptr;
+  sphi_buffer_free(f->ctx, &old);
+  return SPH_OK;
+}
+
+void sphi_pairs_free(sph_context *ctx, sphi_pairs *p) {
+  sphi_buffer_free(ctx, &p->b_candidates);
+  sphi_buffer_free(ctx, &p->b_slots);
+  sphi_buffer_free(ctx, &p->b_rows);
+  sphi_buffer_free(ctx, &p->b_pair);
+}
+
+/* --- waves --- */
+
+static void run_wave(fill *f) { sphi_parallel(f->ctx, f->slot_count, 1, wave_body, f); }
+
+static void no_chunks(fill *f) {
+  for (int64_t k = 0; k < f->slot_count; k++) f->slots[k].begin = f->slots[k].end = 0;
+}
+
+/* Copy what waits, without searching. */
+static void flush(fill *f) {
+  no_chunks(f);
+  run_wave(f);
+}
+
+static void hand_out_chunks(fill *f) {
+  int64_t row = f->next;
+  no_chunks(f);
+  for (int64_t k = 0; k < f->slot_count && row < f->l->n; k++) {
+    f->slots[k].begin = row;
+    row = f->l->n - row < f->chunk ? f->l->n : row + f->chunk;
+    f->slots[k].end = row;
+  }
+}
+
+/* Room for `need` pairs up to row `next`; nothing waits for copying now. */
+static sph_status make_room(fill *f, int64_t need, int64_t next) {
+  int64_t most = f->list->options.max_pairs;
+  if (f->restore) return SPH_OK;
+  if (most > 0 && need > most)
+    return sphi_fail(f->ctx, SPH_ERR_LIMIT, "the particles have more than max_pairs = %lld pairs",
+                     (long long)most);
+  if (need <= pair_capacity(f->p)) return SPH_OK;
+  double expected = 1.05 * (double)need * (double)f->l->n / (double)next;
+  int64_t more = need + need / 8;
+  if (expected < 2.0 * (double)need) more = (int64_t)expected;
+  return grow_pairs(f, more + 4096, f->total);
+}
+
+/* Chunks of the wave that count: all up to the first one that ended early. */
+static int64_t usable_slots(const fill *f, int64_t *pairs, int64_t *next) {
+  int64_t k = 0;
+  *pairs = f->total;
+  *next = f->next;
+  for (; k < f->slot_count && f->slots[k].begin < f->slots[k].end; k++) {
+    *pairs += f->slots[k].count;
+    *next = f->slots[k].done;
+    if (f->slots[k].done < f->slots[k].end) return k + 1;
+  }
+  return k;
+}
+
+static sph_status assign_places(fill *f) {
+  int64_t pairs, next, usable = usable_slots(f, &pairs, &next);
+  sph_status status = make_room(f, pairs, next);
+  if (status != SPH_OK) return status;
+  for (int64_t k = 0; k < usable; k++) {
+    slot *s = &f->slots[k];
+    s->ready = s->begin;
+    s->ready_end = s->done;
+    s->ready_count = s->count;
+    s->place = f->total;
+    f->total += s->count;
+  }
+  f->next = next;
+  return SPH_OK;
+}
+
+/* After a wave: larger buffers where a chunk ended early, and a better length of chunks. */
+static sph_status adapt(fill *f) {
+  sphi_pairs *p = f->p;
+  int64_t candidates = p->candidate_capacity, pairs = p->slot_capacity;
+  int64_t shortest = INT64_MAX;
+  for (int64_t k = 0; k < f->slot_count; k++) {
+    const slot *s = &f->slots[k];
+    if (s->done >= s->end) continue;
+    int64_t done = s->done - s->begin;
+    if (done < shortest) shortest = done;
+    if (s->need_candidates > candidates) candidates = s->need_candidates + s->need_candidates / 2;
+    if (done == 0 && s->need_pairs > pairs) pairs = 2 * s->need_pairs;
+    if (done < SPHI_BLOCK && s->need_pairs > 0 && 2 * p->slot_capacity <= large_slot)
+      pairs = pairs > 2 * p->slot_capacity ? pairs : 2 * p->slot_capacity;
+  }
+  if (shortest == INT64_MAX) {
+    f->chunk = 2 * f->chunk < CHUNK ? 2 * f->chunk : CHUNK;
+    return SPH_OK;
+  }
+  f->chunk = shortest > SPHI_BLOCK ? shortest - shortest / 4 : SPHI_BLOCK;
+  if (candidates == p->candidate_capacity && pairs == p->slot_capacity) return SPH_OK;
+  flush(f);
+  p->candidate_capacity = candidates;
+  p->slot_capacity = pairs;
+  return reserve_buffers(f);
+}
+
+static sph_status run_waves(fill *f) {
+  sph_status s = SPH_OK;
+  while (f->next < f->l->n && s == SPH_OK) {
+    hand_out_chunks(f);
+    run_wave(f);
+    s = assign_places(f);
+    if (s == SPH_OK) s = adapt(f);
+    if (s == SPH_OK && !f->restore)
+      s = sphi_progress(f->ctx, (double)f->next / (double)f->l->n, "neighbours");
+  }
+  if (s == SPH_OK) flush(f);
+  return s;
+}
+
+/* --- the estimate --- */
+
+/* Pairs of a few groups spread over the layout, extrapolated. */
+static double estimate(fill *f) {
+  int64_t n = f->l->n, rows = 0, pairs = 0;
+  for (int64_t k = 0; k < SAMPLES; k++) {
+    slot s;
+    memset(&s, 0, sizeof s);
+    s.begin = (int64_t)((double)n * ((double)k + 0.5) / SAMPLES);
+    s.end = s.begin + 16 < n ? s.begin + 16 : n;
+    search_chunk(f, &s, slot_memory(f, 0), 0);
+    rows += s.done - s.begin;
+    pairs += s.count;
+  }
+  return rows > 0 ? (double)pairs / (double)rows * (double)n : 0.0;
+}
+
+/* Begin with an array that will probably do; a little short is left to growth. */
+static sph_status begin_pairs(fill *f) {
+  double expected = estimate(f);
+  double most = (double)f->list->options.max_pairs;
+  if (most > 0.0 && expected > most) expected = most;
+  if (expected <= 1.02 * (double)pair_capacity(f->p) && f->p->b_pair.ptr != NULL) return SPH_OK;
+  if (expected > 4e18) expected = 4e18;
+  return grow_pairs(f, (int64_t)(1.04 * expected) + 4096, 0);
+}
+
+static void finish(fill *f) {
+  f->l->start[f->l->n] = f->total;
+  memset(f->list->pair + f->total, 0, SPHI_ROW_PADDING * sizeof(uint32_t));
+}
+
+static const sphi_search *choose_search(sph_context *ctx) {
+#if defined(__x86_64__)
+  if (sphi_isa(ctx) == SPH_ISA_AVX512) return &sphi_search_avx512;
+  if (sphi_isa(ctx) == SPH_ISA_AVX2) return &sphi_search_avx2;
+#endif
+  (void)ctx;
+  return &sphi_search_portable;
+}
+
+static sph_status set_up(fill *f) {
+  int64_t workers = sphi_workers(f->ctx);
+  f->slot_count = workers > 1 ? workers * SLOTS_EACH : 1;
+  if (f->p->slot_capacity == 0) f->p->slot_capacity = first_slot;
+  if (f->p->candidate_capacity == 0) f->p->candidate_capacity = FIRST_CANDIDATES;
+  sph_status s =
+      sphi_buffer_reserve(f->ctx, &f->p->b_rows, (size_t)f->slot_count * sizeof(slot));
+  if (s == SPH_OK) s = reserve_buffers(f);
+  if (s != SPH_OK) return s;
+  f->slots = f->p->b_rows.ptr;
+  memset(f->slots, 0, (size_t)f->slot_count * sizeof(slot));
+  for (int64_t k = 0; k < f->slot_count; k++) f->slots[k].place = -1;
+  return SPH_OK;
+}
+
+sph_status sphi_fill(sph_neighbors *list, sphi_layout *l, int restore) {
+  sph_context *ctx = list->base.ctx;
+  fill f = {.list = list, .ctx = ctx, .l = l, .p = &list->priv->pairs, .chunk = CHUNK,
+            .search = choose_search(ctx), .restore = restore};
+  sph_status s = set_up(&f);
+  if (s == SPH_OK && !restore && l->n > 0) s = begin_pairs(&f);
+  if (s == SPH_OK && f.p->b_pair.ptr == NULL) s = grow_pairs(&f, 0, 0);
+  if (s == SPH_OK) s = run_waves(&f);
+  if (s == SPH_OK) finish(&f);
+  return s;
+}

@@ -1,0 +1,84 @@
+/* The search loops in 256-bit vectors; kept lanes are moved to the front by a table. */
+#if defined(__x86_64__)
+#if !defined(__AVX2__) || !defined(__FMA__)
+#error "compile this file with AVX2 and FMA"
+#endif
+#include "search.h"
+
+#include <immintrin.h>
+
+#define W 8
+#define ALL 0xffu
+#define SEARCH sphi_search_avx2
+typedef __m256 vf;
+
+#include "permute.inc"
+
+static inline vf vf_set(float x) { return _mm256_set1_ps(x); }
+static inline vf vf_load(const float *p) { return _mm256_loadu_ps(p); }
+static inline vf vf_add(vf a, vf b) { return _mm256_add_ps(a, b); }
+static inline vf vf_sub(vf a, vf b) { return _mm256_sub_ps(a, b); }
+static inline vf vf_mul(vf a, vf b) { return _mm256_mul_ps(a, b); }
+static inline vf vf_div(vf a, vf b) { return _mm256_div_ps(a, b); }
+static inline vf vf_fma(vf a, vf b, vf c) { return _mm256_fmadd_ps(a, b, c); }
+static inline vf vf_min(vf a, vf b) { return _mm256_min_ps(a, b); }
+static inline vf vf_max(vf a, vf b) { return _mm256_max_ps(a, b); }
+static inline vf vf_abs(vf a) { return _mm256_andnot_ps(_mm256_set1_ps(-0.0f), a); }
+static inline uint32_t vf_less(vf a, vf b) {
+  return (uint32_t)_mm256_movemask_ps(_mm256_cmp_ps(a, b, _CMP_LT_OQ));
+}
+
+static inline vf join(__m256d a, __m256d b) {
+  return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm256_cvtpd_ps(a)), _mm256_cvtpd_ps(b), 1);
+}
+
+static inline vf vf_relative(const double *x, double center, double scale) {
+  __m256d c = _mm256_set1_pd(center), s = _mm256_set1_pd(scale);
+  return join(_mm256_mul_pd(_mm256_sub_pd(_mm256_loadu_pd(x), c), s),
+              _mm256_mul_pd(_mm256_sub_pd(_mm256_loadu_pd(x + 4), c), s));
+}
+
+static inline __m256d wrapped(__m256d d, double period, double inverse) {
+  const __m256d magic = _mm256_set1_pd(6755399441055744.0);
+  __m256d turns = _mm256_add_pd(_mm256_mul_pd(d, _mm256_set1_pd(inverse)), magic);
+  return _mm256_sub_pd(d, _mm256_mul_pd(_mm256_set1_pd(period), _mm256_sub_pd(turns, magic)));
+}
+
+static inline vf vf_relative_wrapped(const double *x, double center, double scale,
+                                     double period, double inverse) {
+  __m256d c = _mm256_set1_pd(center), s = _mm256_set1_pd(scale);
+  __m256d a = wrapped(_mm256_sub_pd(_mm256_loadu_pd(x), c), period, inverse);
+  __m256d b = wrapped(_mm256_sub_pd(_mm256_loadu_pd(x + 4), c), period, inverse);
+  return join(_mm256_mul_pd(a, s), _mm256_mul_pd(b, s));
+}
+
+static inline vf vf_scaled(const double *x, double scale) {
+  __m256d s = _mm256_set1_pd(scale);
+  return join(_mm256_mul_pd(_mm256_loadu_pd(x), s), _mm256_mul_pd(_mm256_loadu_pd(x + 4), s));
+}
+
+static inline __m256i to_front(__m256i v, uint32_t keep) {
+  __m128i bytes = _mm_cvtsi64_si128((long long)permute[keep]);
+  return _mm256_permutevar8x32_epi32(v, _mm256_cvtepu8_epi32(bytes));
+}
+
+static inline void put_floats(float *p, vf v, uint32_t keep) {
+  _mm256_storeu_si256((__m256i *)(void *)p, to_front(_mm256_castps_si256(v), keep));
+}
+
+/* first, first + 1, ... of the lanes kept */
+static inline void put_counted(uint32_t *p, uint32_t first, uint32_t keep) {
+  __m256i v = _mm256_add_epi32(_mm256_set1_epi32((int)first),
+                               _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
+  _mm256_storeu_si256((__m256i *)(void *)p, to_front(v, keep));
+}
+
+static inline void put_indices(uint32_t *p, const uint32_t *from, uint32_t keep) {
+  __m256i v = _mm256_loadu_si256((const __m256i *)(const void *)from);
+  _mm256_storeu_si256((__m256i *)(void *)p, to_front(v, keep));
+}
+
+#include "search.inc"
+#else
+typedef int sphi_neighbors_avx2_unused;
+#endif

@@ -1,0 +1,68 @@
+/* Finding the pairs of a group: gather candidates, test every row against them.
+ *
+ * Candidates are copied, relative to the centre of the group and scaled to at most 1, into
+ * single-precision arrays; those too far from the box of the group are dropped. A row is then
+ * tested in single precision against two bounds: below the lower one a candidate certainly is a
+ * neighbour, above the upper one it certainly is none, and the few in between are decided by
+ * the exact test in double precision. So the result is that of the exact test, at twice the
+ * lanes and half the bytes. */
+#ifndef SPHI_SEARCH_H
+#define SPHI_SEARCH_H
+
+#include "layout.h"
+
+enum { SPHI_CANDIDATE_PADDING = 16 };
+
+typedef struct sphi_candidates {
+  float *x[3], *s;
+  uint32_t *index; /* sweep positions, ascending */
+  int64_t count;
+  int64_t capacity; /* SPHI_CANDIDATE_PADDING more can be written */
+} sphi_candidates;
+
+typedef struct sphi_group {
+  const sphi_layout *l;
+  int64_t begin, end; /* rows */
+  double center[3], half[3]; /* box of the rows */
+  double s;           /* bound of their s */
+  double scale;       /* 1 / (half width + reach); 0: only the exact test is possible */
+  float box[3];       /* scaled half widths, rounded up */
+  float low, high;    /* uniform: bounds of the squared scaled distance */
+  float skin, s_group;
+  double s_scale;     /* makes s single precision: scale, or its inverse for harmonic */
+} sphi_group;
+
+/* Error of a squared scaled distance near a scaled cutoff c. Coordinates are at most 1 and are
+ * rounded to 2^-25, differences likewise: at most 4.2e-7 c + 6e-7 c^2; taken more than twice. */
+#define SPHI_DOUBT_LINEAR 1e-6f
+#define SPHI_DOUBT_SQUARE 1.5e-6f
+#define SPHI_DOUBT_CONSTANT 1e-12f
+
+void sphi_group_set(sphi_group *g, const sphi_layout *l, int64_t begin, int64_t end);
+
+/* Keep those of `doubtful` that are pairs of row i: lanes refer to index[lane]. */
+uint32_t sphi_exact_lanes(const sphi_layout *l, int64_t i, const uint32_t *index,
+                          uint32_t doubtful);
+
+/* Append the candidates of some ranges; the caller has made sure that all would fit. */
+typedef void (*sphi_gather_fn)(const sphi_group *g, const sphi_range *r, int count,
+                               sphi_candidates *c);
+/* Rows of the group into out[0 .. capacity): start[i] = base + its offset there, for as many rows as
+ * surely fit. Returns the rows done; *used grows. */
+typedef int64_t (*sphi_rows_fn)(const sphi_group *g, sphi_candidates *c, uint32_t *out,
+                                int64_t capacity, int64_t *used, int64_t *start);
+
+typedef struct sphi_search {
+  sphi_gather_fn gather;
+  sphi_rows_fn rows;
+} sphi_search;
+
+/* For groups that single precision cannot serve (scale 0). */
+extern const sphi_search sphi_search_exact;
+extern const sphi_search sphi_search_portable;
+#if defined(__x86_64__)
+extern const sphi_search sphi_search_avx2;
+extern const sphi_search sphi_search_avx512;
+#endif
+
+#endif

@@ -1,0 +1,113 @@
+/* Shepard sums and the kernel-gradient matrix. */
+#include "operators_impl.h"
+
+#include <math.h>
+#include <string.h>
+
+sph_status sph_shepard_sum(sph_neighbors *list, const sph_kernel *kernel, const sph_operands *a,
+                           double *sum) {
+  sph_operands own;
+  sph_status s = sphi_operator_begin(list, kernel, a, SPHI_NEED_M | SPHI_NEED_RHO, sum,
+                                     "sph_shepard_sum", &own);
+  if (s) return s;
+  sphi_sweep sweep = sphi_sweep_of(kernel, &own, SPHI_SHEPARD);
+  sweep.shepard = sum;
+  return sphi_sweep_run(list, &sweep);
+}
+
+/* Adjugate and determinant: inverse = adjugate / det. */
+static double adjugate(int32_t d, const double *b, double *adj) {
+  if (d == 1) {
+    adj[0] = 1.0;
+    return b[0];
+  }
+  if (d == 2) {
+    adj[0] = b[3];
+    adj[1] = -b[1];
+    adj[2] = -b[2];
+    adj[3] = b[0];
+    return b[0] * b[3] - b[1] * b[2];
+  }
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 3; ++c) {
+      int r1 = (c + 1) % 3, r2 = (c + 2) % 3, c1 = (r + 1) % 3, c2 = (r + 2) % 3;
+      adj[r * 3 + c] = b[r1 * 3 + c1] * b[r2 * 3 + c2] - b[r1 * 3 + c2] * b[r2 * 3 + c1];
+    }
+  return b[0] * adj[0] + b[1] * adj[3] + b[2] * adj[6];
+}
+
+static double norm(int32_t d, const double *a) {
+  double s = 0.0;
+  for (int k = 0; k < d * d; ++k) s += a[k] * a[k];
+  return sqrt(s);
+}
+
+int sphi_invert_gradient_matrix(int32_t dim, const double *b, double *inverse) {
+  enum { CONDITION_LIMIT = 1000 };
+  double adj[9], det = adjugate(dim, b, adj);
+  double size = norm(dim, b);
+  /* a matrix far from the identity in size is as useless as a singular one */
+  int good = isfinite(det) && size > 1e-3 &&
+             size * norm(dim, adj) < CONDITION_LIMIT * fabs(det);
+  for (int k = 0; k < dim * dim; ++k)
+    inverse[k] = good ? adj[k] / det : (k % (dim + 1) == 0 ? 1.0 : 0.0);
+  return !good;
+}
+
+typedef struct invert_job {
+  int32_t dim;
+  double *b;
+  int64_t *fallbacks; /* one counter a worker */
+} invert_job;
+
+static void invert_range(void *job, int64_t lo, int64_t hi, int32_t worker) {
+  const invert_job *j = job;
+  int32_t dd = j->dim * j->dim;
+  double m[9];
+  for (int64_t i = lo; i < hi; ++i) {
+    memcpy(m, j->b + i * dd, (size_t)dd * sizeof *m);
+    j->fallbacks[worker] += sphi_invert_gradient_matrix(j->dim, m, j->b + i * dd);
+  }
+}
+
+enum { SCRATCH_COUNTS = 2, INVERT_GRAIN = 4096 };
+
+static sph_status invert_all(sph_neighbors *list, const sph_operands *own, double *b,
+                             int64_t *fallbacks) {
+  sph_context *ctx = list->base.ctx;
+  int32_t workers = sphi_workers(ctx);
+  size_t bytes = sphi_mul((size_t)workers, sizeof(int64_t));
+  sph_status s = sphi_buffer_reserve(ctx, &list->scratch[SCRATCH_COUNTS], bytes);
+  if (s) return s;
+  invert_job job = {own->dim, b, list->scratch[SCRATCH_COUNTS].ptr};
+  memset(job.fallbacks, 0, bytes);
+  sphi_parallel(ctx, own->rows, INVERT_GRAIN, invert_range, &job);
+  for (int32_t w = 1; w < workers; ++w) job.fallbacks[0] += job.fallbacks[w];
+  if (fallbacks) *fallbacks = job.fallbacks[0];
+  return SPH_OK;
+}
+
+sph_status sphi_gradient_matrices(sph_neighbors *list, const sph_kernel *kernel,
+                                  const sph_operands *own, double *inverse, int64_t *fallbacks) {
+  sphi_sweep sweep = sphi_sweep_of(kernel, own, SPHI_MATRIX);
+  sweep.spec.corrected = 0;
+  sweep.matrix = inverse;
+  sph_status s = sphi_sweep_run(list, &sweep);
+  return s ? s : invert_all(list, own, inverse, fallbacks);
+}
+
+sph_status sph_gradient_matrix(sph_neighbors *list, const sph_kernel *kernel,
+                               const sph_operands *a, double *inverse, double *matrix,
+                               int64_t *fallbacks) {
+  sph_operands own;
+  sph_status s = sphi_operator_begin(list, kernel, a, SPHI_NEED_M | SPHI_NEED_RHO, inverse,
+                                     "sph_gradient_matrix", &own);
+  if (s) return s;
+  if (matrix) {
+    sphi_sweep sweep = sphi_sweep_of(kernel, &own, SPHI_MATRIX);
+    sweep.spec.corrected = 0;
+    sweep.matrix = matrix;
+    s = sphi_sweep_run(list, &sweep);
+  }
+  return s ? s : sphi_gradient_matrices(list, kernel, &own, inverse, fallbacks);
+}

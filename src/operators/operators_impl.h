@@ -1,0 +1,50 @@
+/* Shared by the operators: argument checks, and the sweeps that the composed right-hand side also
+ * runs. */
+#ifndef SPHI_OPERATORS_IMPL_H
+#define SPHI_OPERATORS_IMPL_H
+
+#include "../sweep/sweep.h"
+
+#include <sph/correction.h>
+#include <sph/operators.h>
+
+/* Arrays an operator needs, besides x. */
+enum {
+  SPHI_NEED_V = 1 << 0,
+  SPHI_NEED_M = 1 << 1,
+  SPHI_NEED_RHO = 1 << 2,
+  SPHI_NEED_P = 1 << 3, /* may be the uniform p0, also 0 */
+  SPHI_NEED_C = 1 << 4,
+  SPHI_NEED_SIGMA = 1 << 5,
+  SPHI_NEED_MATRIX = 1 << 6
+};
+
+/* Check handles, sizes and needed arrays, and copy the caller's operands over *own, with `rows` filled in. `name` is the
+ * operator's, for the sentence. */
+sph_status sphi_operator_begin(sph_neighbors *list, const sph_kernel *kernel,
+                               const sph_operands *a, uint32_t needs, const void *output,
+                               const char *name, sph_operands *own);
+
+/* A sweep with one set of terms, corrected where the operands have a matrix. */
+sphi_sweep sphi_sweep_of(const sph_kernel *kernel, const sph_operands *own, uint32_t terms);
+
+/* B_i to its inverse, or the identity where it is ill conditioned: 1 then, else 0. */
+int sphi_invert_gradient_matrix(int32_t dim, const double *b, double *inverse);
+
+/* The viscous pressure of one particle from its velocity divergence, He 2015 (3.14) to (3.17). */
+double sphi_bulk_pressure(const sph_bulk_viscosity *o, double div, double h, double rho, double c);
+
+/* Artificial stress of one particle; r may be sigma. */
+void sphi_artificial_stress(int32_t dim, const double *sigma, double rho, double epsilon,
+                            double *r);
+
+/* B^-1 of every row, by a sweep and a pointwise inverse. */
+sph_status sphi_gradient_matrices(sph_neighbors *list, const sph_kernel *kernel,
+                                  const sph_operands *own, double *inverse, int64_t *fallbacks);
+
+/* q of every row < rows, 0 for the rest up to n; `gradv` is scratch for rows * dim * dim. */
+sph_status sphi_bulk_pressures(sph_neighbors *list, const sph_kernel *kernel,
+                               const sph_operands *own, const sph_bulk_viscosity *o,
+                               double *gradv, double *q);
+
+#endif

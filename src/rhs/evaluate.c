@@ -1,0 +1,162 @@
+/* One evaluation, from top to bottom: checks, hook, list, pressures, pair sums, pointwise rates,
+ * hook. */
+#include "rhs_impl.h"
+
+#include <string.h>
+
+int32_t sphi_term_field(int32_t kind) {
+  switch (kind) {
+    case SPH_TERM_CONTINUITY: return SPH_FIELD_RHO;
+    case SPH_TERM_STRESS_RATE: return SPH_FIELD_SIGMA;
+    case SPH_TERM_XSPH:
+    case SPH_TERM_MOTION: return SPH_FIELD_X;
+    default: return SPH_FIELD_V;
+  }
+}
+
+double *sphi_rate_of(const sphi_evaluation *e, int32_t field) {
+  for (int32_t k = 0; k < e->count; ++k)
+    if (e->rates[k].field == field) return e->rates[k].values;
+  return NULL;
+}
+
+int sphi_term_wanted(const sphi_evaluation *e, int32_t kind) {
+  return e->rhs->terms[kind].kind && sphi_rate_of(e, sphi_term_field(kind)) != NULL;
+}
+
+static sph_status check_rates(const sphi_evaluation *e) {
+  sph_context *ctx = e->rhs->base.ctx;
+  if (e->count < 0 || (e->count > 0 && !e->rates))
+    return sphi_fail(ctx, SPH_ERR_ARG, "sph_rhs_evaluate: %d rates, array %s", e->count,
+                     e->rates ? "given" : "NULL");
+  for (int32_t k = 0; k < e->count; ++k) {
+    if (!e->rates[k].values && e->rows > 0)
+      return sphi_fail(ctx, SPH_ERR_ARG, "sph_rhs_evaluate: the rate of %s is NULL",
+                       sphi_field_name(e->set, e->rates[k].field));
+    if (sph_particles_components(e->set, e->rates[k].field) == 0)
+      return sphi_fail(ctx, SPH_ERR_ARG, "sph_rhs_evaluate: there is no field %d",
+                       e->rates[k].field);
+    for (int32_t l = 0; l < k; ++l)
+      if (e->rates[l].field == e->rates[k].field)
+        return sphi_fail(ctx, SPH_ERR_ARG, "sph_rhs_evaluate: the rate of %s is asked for twice",
+                         sphi_field_name(e->set, e->rates[k].field));
+  }
+  return SPH_OK;
+}
+
+static sph_status check_arguments(sph_rhs *rhs, sph_particles *set, sph_neighbors *list) {
+  sph_status s = sphi_check_handle(NULL, rhs, SPHI_MAGIC_RHS, "rhs");
+  if (!s) s = sphi_check_handle(rhs->base.ctx, set, SPHI_MAGIC_PARTICLES, "set");
+  if (!s) s = sphi_check_handle(rhs->base.ctx, list, SPHI_MAGIC_NEIGHBORS, "list");
+  if (s) return s;
+  if (rhs->kernel->dim != sph_particles_dim(set))
+    return sphi_fail(rhs->base.ctx, SPH_ERR_ARG,
+                     "sph_rhs_evaluate: the set is %d-D, the kernel %d-D", sph_particles_dim(set),
+                     rhs->kernel->dim);
+  if (list->options.support < rhs->kernel->support * (1.0 - 1e-12))
+    return sphi_fail(rhs->base.ctx, SPH_ERR_ARG,
+                     "sph_rhs_evaluate: the list reaches %g h, the kernel %g h",
+                     list->options.support, rhs->kernel->support);
+  return SPH_OK;
+}
+
+static sph_status require(sphi_evaluation *e, const void *array, int32_t field, int32_t kind) {
+  if (array) return SPH_OK;
+  return sphi_fail(e->rhs->base.ctx, SPH_ERR_ARG, "sph_rhs_evaluate: term %d needs field %s", kind,
+                   sphi_field_name(e->set, field));
+}
+
+static int needs_c(const sph_term *t) {
+  return t->kind == SPH_TERM_MONAGHAN ||
+         (t->kind == SPH_TERM_BULK_VISCOSITY && (t->linear != 0.0 || t->alpha != 0.0));
+}
+
+/* Which fields each wanted term reads. */
+static sph_status check_fields(sphi_evaluation *e) {
+  const sph_operands *a = &e->a;
+  sph_status s = require(e, a->h, SPH_FIELD_H, 0);
+  for (int32_t k = 1; !s && k <= SPHI_MAX_TERM; ++k) {
+    const sph_term *t = &e->rhs->terms[k];
+    if (!sphi_term_wanted(e, k)) continue;
+    int velocity = k == SPH_TERM_CONTINUITY || k == SPH_TERM_STRESS_RATE ||
+                   k == SPH_TERM_MONAGHAN || k == SPH_TERM_BULK_VISCOSITY ||
+                   k == SPH_TERM_XSPH || k == SPH_TERM_MOTION;
+    int sums = k != SPH_TERM_BODY_FORCE && k != SPH_TERM_MOTION;
+    int stress = k == SPH_TERM_STRESS || k == SPH_TERM_ARTIFICIAL_STRESS;
+    if (velocity) s = require(e, a->v, SPH_FIELD_V, k);
+    if (!s && sums) s = require(e, a->m, SPH_FIELD_M, k);
+    if (!s && sums) s = require(e, a->rho, SPH_FIELD_RHO, k);
+    if (!s && k == SPH_TERM_PRESSURE) s = require(e, a->p, SPH_FIELD_P, k);
+    if (!s && stress) s = require(e, a->sigma, SPH_FIELD_SIGMA, k);
+    if (!s && needs_c(t)) s = require(e, a->c, SPH_FIELD_C, k);
+  }
+  return s;
+}
+
+static sph_status run_hook(sphi_evaluation *e, sph_rhs_hook hook, void *user, const char *name) {
+  if (!hook) return SPH_OK;
+  int32_t answer = hook(user, e->t, e->set, e->rates, e->count);
+  if (answer == 0) return SPH_OK;
+  if (answer > 0) return SPH_RETRY;
+  return sphi_fail(e->rhs->base.ctx, SPH_ERR_CALLBACK, "the %s hook answered %d at t = %g", name,
+                   answer, e->t);
+}
+
+static sph_status update_list(sphi_evaluation *e) {
+  const sph_operands *a = &e->a;
+  if (!e->rhs->options.update_list) return SPH_OK;
+  if (e->rhs->options.position_field == SPH_FIELD_X)
+    return sph_neighbors_update(e->list, e->set, NULL);
+  return sph_neighbors_update_arrays(e->list, a->dim, a->n, a->x, a->h, a->h0, NULL);
+}
+
+static sph_status gather(sphi_evaluation *e) {
+  sph_status s = sph_operands_from_set(e->set, &e->a);
+  if (s) return s;
+  int32_t field = e->rhs->options.position_field;
+  e->a.x = sph_particles_field_const(e->set, field);
+  e->rows = e->a.rows;
+  return require(e, e->a.x, field, 0);
+}
+
+static void clear_rates(sphi_evaluation *e) {
+  for (int32_t k = 0; k < e->count; ++k) {
+    int32_t c = sph_particles_components(e->set, e->rates[k].field);
+    if (e->rows > 0)
+      memset(e->rates[k].values, 0, (size_t)e->rows * (size_t)c * sizeof(double));
+  }
+}
+
+static sph_status evaluate(sphi_evaluation *e) {
+  sph_rhs *rhs = e->rhs;
+  sph_status s = gather(e);
+  if (!s) s = check_rates(e);
+  if (!s) s = run_hook(e, rhs->prepare, rhs->prepare_user, "prepare");
+  if (!s) s = gather(e); /* the hook may have added ghosts */
+  if (!s) s = check_fields(e);
+  if (!s) s = update_list(e);
+  if (!s) s = sphi_rhs_pressures(e);
+  if (s) return s;
+  clear_rates(e);
+  if (e->rows > 0) s = sphi_rhs_sweeps(e);
+  if (!s && e->rows > 0) s = sphi_rhs_host_terms(e);
+  if (!s && e->rows > 0) s = sphi_rhs_stress_rates(e);
+  if (s) return s;
+  sphi_rhs_pointwise(e);
+  return run_hook(e, rhs->finish, rhs->finish_user, "finish");
+}
+
+sph_status sph_rhs_evaluate(sph_rhs *rhs, sph_particles *set, sph_neighbors *list, double t,
+                            const sph_rate *rates, int32_t count) {
+  sph_status s = check_arguments(rhs, set, list);
+  if (s) return s;
+  sphi_evaluation e = {.rhs = rhs,
+                       .set = set,
+                       .list = list,
+                       .t = t,
+                       .rates = rates,
+                       .count = count,
+                       .dim = sph_particles_dim(set)};
+  e.rows = sph_particles_real_count(set);
+  return evaluate(&e);
+}

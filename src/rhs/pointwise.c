@@ -1,0 +1,138 @@
+/* The parts of an evaluation that look at one particle at a time: laws of the materials, motion,
+ * body force. */
+#include "rhs_impl.h"
+
+#include <string.h>
+
+enum { GRAIN = 1024 };
+
+/* A law over all particles, in runs of one phase. The lowest failing particle wins, so that
+ * messages repeat. */
+typedef struct law_job {
+  sphi_evaluation *e;
+  int32_t property;
+  const int32_t *phase;
+  double *out;
+  int64_t failed;
+  sph_status status; /* of a rerun of the failing run, on the calling thread */
+} law_job;
+
+static sph_material *law_of(const law_job *j, int64_t i) {
+  int32_t p = j->phase[i];
+  sph_material *m = p >= 0 && p < SPHI_PHASES ? j->e->rhs->materials[p] : NULL;
+  return sphi_material_has(m, j->property) ? m : NULL;
+}
+
+static const double *shifted(const double *array, int64_t at) { return array ? array + at : NULL; }
+
+static sph_material_block block_of(const law_job *j, int64_t lo, int64_t hi) {
+  const sph_operands *a = &j->e->a;
+  int32_t d = a->dim;
+  sph_material_block b;
+  sph_material_block_init(&b);
+  b.dim = d;
+  b.n = hi - lo;
+  if (j->property == SPHI_MATERIAL_STRESS_RATE)
+    b.velocity_gradient = (const double *)j->e->rhs->scratch[SPHI_RHS_GRADV].ptr + lo * d * d;
+  b.sigma = shifted(a->sigma, lo * sph_sym_components(d));
+  b.rho = shifted(a->rho, lo);
+  b.e = shifted(sph_particles_field_const(j->e->set, SPH_FIELD_E), lo);
+  return b;
+}
+
+static sph_status run_law(const law_job *j, int64_t lo, int64_t hi) {
+  sph_material *m = law_of(j, lo);
+  if (!m) return SPH_OK;
+  sph_material_block b = block_of(j, lo, hi);
+  if (j->property == SPHI_MATERIAL_STRESS_RATE)
+    return sphi_material_stress_rate_quiet(m, &b, j->out + lo * sph_sym_components(b.dim));
+  return sphi_material_pressure_quiet(m, &b, j->out + lo);
+}
+
+static int64_t run_end(const law_job *j, int64_t lo, int64_t hi) {
+  int64_t end = lo + 1;
+  while (end < hi && j->phase[end] == j->phase[lo]) ++end;
+  return end;
+}
+
+static void law_range(void *job, int64_t lo, int64_t hi, int32_t worker) {
+  law_job *j = job;
+  (void)worker;
+  for (int64_t i = lo; i < hi;) {
+    int64_t end = run_end(j, i, hi);
+    if (run_law(j, i, end)) sphi_lowest(&j->failed, i);
+    i = end;
+  }
+}
+
+/* Arrays and laws that every phase in use needs, before any thread starts. */
+static sph_status check_laws(const law_job *j, int64_t n, int required) {
+  sph_context *ctx = j->e->rhs->base.ctx;
+  for (int64_t i = 0; i < n; i = run_end(j, i, n)) {
+    sph_material *m = law_of(j, i);
+    if (!m && required)
+      return sphi_fail(ctx, SPH_ERR_STATE,
+                       "sph_rhs_evaluate: particle %lld has phase %d, which has no material with "
+                       "a stress rate",
+                       (long long)i, j->phase[i]);
+    if (!m) continue;
+    sph_material_block b = block_of(j, i, i + 1);
+    sph_status s = sphi_material_check_block(m, j->property, &b);
+    if (s) return s;
+  }
+  return SPH_OK;
+}
+
+static sph_status run_laws(law_job *j, int64_t n) {
+  j->failed = INT64_MAX;
+  sphi_parallel(j->e->rhs->base.ctx, n, GRAIN, law_range, j);
+  if (j->failed == INT64_MAX) return SPH_OK;
+  j->status = run_law(j, j->failed, run_end(j, j->failed, n));
+  return sphi_material_fail(law_of(j, j->failed), j->property,
+                            j->status ? j->status : SPH_ERR_CALLBACK);
+}
+
+sph_status sphi_rhs_pressures(sphi_evaluation *e) {
+  law_job j = {.e = e,
+               .property = SPHI_MATERIAL_PRESSURE,
+               .phase = sphi_particles_phases(e->set)};
+  int any = 0;
+  for (int32_t p = 0; e->rhs->material_count > 0 && p < SPHI_PHASES; ++p)
+    any |= sphi_material_has(e->rhs->materials[p], SPHI_MATERIAL_PRESSURE);
+  if (!any || e->rows == 0) return SPH_OK;
+  sph_status s = sph_particles_field(e->set, SPH_FIELD_P, &j.out);
+  if (s) return s;
+  e->a.p = j.out;
+  s = check_laws(&j, e->rows, 0);
+  return s ? s : run_laws(&j, e->rows);
+}
+
+sph_status sphi_rhs_stress_rates(sphi_evaluation *e) {
+  law_job j = {.e = e,
+               .property = SPHI_MATERIAL_STRESS_RATE,
+               .phase = sphi_particles_phases(e->set),
+               .out = sphi_rate_of(e, SPH_FIELD_SIGMA)};
+  if (!sphi_term_wanted(e, SPH_TERM_STRESS_RATE)) return SPH_OK;
+  sph_status s = check_laws(&j, e->rows, 1);
+  return s ? s : run_laws(&j, e->rows);
+}
+
+static void point_range(void *job, int64_t lo, int64_t hi, int32_t worker) {
+  const sphi_evaluation *e = job;
+  const sph_term *terms = e->rhs->terms;
+  double *dx = sphi_rate_of(e, SPH_FIELD_X), *dv = sphi_rate_of(e, SPH_FIELD_V);
+  const double *xsph = e->rhs->scratch[SPHI_RHS_XSPH].ptr;
+  int32_t d = e->dim;
+  (void)worker;
+  if (dx && terms[SPH_TERM_MOTION].kind)
+    for (int64_t k = lo * d; k < hi * d; ++k) dx[k] += e->a.v[k];
+  if (dx && terms[SPH_TERM_XSPH].kind)
+    for (int64_t k = lo * d; k < hi * d; ++k) dx[k] += terms[SPH_TERM_XSPH].epsilon * xsph[k];
+  if (dv && terms[SPH_TERM_BODY_FORCE].kind)
+    for (int64_t i = lo; i < hi; ++i)
+      for (int32_t c = 0; c < d; ++c) dv[i * d + c] += terms[SPH_TERM_BODY_FORCE].vector[c];
+}
+
+void sphi_rhs_pointwise(sphi_evaluation *e) {
+  sphi_parallel(e->rhs->base.ctx, e->rows, GRAIN, point_range, e);
+}

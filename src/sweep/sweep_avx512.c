@@ -1,0 +1,7 @@
+/* Row loops for AVX-512; portable ones where the build is for another architecture. */
+#if defined(__x86_64__)
+#define SPHI_SIMD_AVX512
+#endif
+#include "rows.inc"
+
+sphi_rows_fn sphi_rows_avx512(sphi_spec *spec, int32_t dim) { return find_rows(spec, dim); }
