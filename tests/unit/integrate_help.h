@@ -102,7 +102,8 @@ static CHECK_UNUSED sph_particles *make_set(sph_context *ctx, int32_t dim, int64
   return set;
 }
 
-/* x' = v + drag of position, v' = -sin x - 0.1 v, others: y' = -y + cos t. Works for any binding. */
+/* x' = v + drag of position, v' = -sin x - 0.1 v, others: y' = -y + cos t. Works for any binding.
+ */
 static CHECK_UNUSED int32_t pendulum(void *user, double t, sph_particles *set,
                                      const sph_rate *rates, int32_t count) {
   const double *x = sph_particles_field_const(set, SPH_FIELD_X);
@@ -113,9 +114,12 @@ static CHECK_UNUSED int32_t pendulum(void *user, double t, sph_particles *set,
     const double *y = sph_particles_field_const(set, field);
     int64_t n = sph_particles_real_count(set) * sph_particles_components(set, field);
     for (int64_t i = 0; i < n; ++i) {
-      if (field == SPH_FIELD_X) rates[k].values[i] = v[i];
-      else if (field == SPH_FIELD_V) rates[k].values[i] = -sin(x[i]) - drag * v[i];
-      else rates[k].values[i] = -y[i] + cos(t) + 0.1 * v[0];
+      if (field == SPH_FIELD_X)
+        rates[k].values[i] = v[i];
+      else if (field == SPH_FIELD_V)
+        rates[k].values[i] = -sin(x[i]) - drag * v[i];
+      else
+        rates[k].values[i] = -y[i] + cos(t) + 0.1 * v[0];
     }
   }
   return 0;

@@ -85,10 +85,13 @@ static void test_polynomials(void **state) {
 static void test_order_conditions(void **state) {
   static const int32_t order[] = {1, 2, 2, 3, 4, 4};
   static const double classical[] = {0, 0, 0, 0, .5, 0, 0, 0, 0, .5, 0, 0, 0, 0, 1, 0};
-  static const double c[] = {0, .5, .5, 1}, wrong[] = {.25, .25, .25, .25};
-  sphi_tableau t = {4, classical, wrong, c, NULL, 0};
+  static const double c[] = {0, .5, .5, 1}, second[] = {.25, .25, .25, .25};
+  static const double none[] = {.5, .5, .5, .5}, third[] = {.125, .375, .375, .125};
+  sphi_tableau t = {4, classical, second, c, NULL, 0};
   (void)state;
-  assert_int_equal(sphi_butcher_order(&t, wrong), 2 - (int)(fabs(.25 * 2.0 - .5) > 1e-10));
+  assert_int_equal(sphi_butcher_order(&t, none), 0);
+  assert_int_equal(sphi_butcher_order(&t, second), 2);
+  assert_int_equal(sphi_butcher_order(&t, third), 2); /* weights of another method */
   for (int32_t m = SPH_INTEGRATOR_EULER; m <= SPH_INTEGRATOR_RK38; ++m) {
     assert_true(sphi_butcher_builtin(m, &t));
     assert_int_equal(sphi_butcher_order(&t, t.b), order[m - 1]);
@@ -183,8 +186,10 @@ static void test_error_orders(void **state) {
   static const struct {
     int32_t method, evaluations;
     double order;
-  } row[] = {{SPH_INTEGRATOR_PC2, 2, 2},    {SPH_INTEGRATOR_HEUN, 2, 2},
-             {SPH_INTEGRATOR_SSPRK3, 3, 3}, {SPH_INTEGRATOR_BUTCHER, 3, 3},
+  } row[] = {{SPH_INTEGRATOR_PC2, 2, 2},
+             {SPH_INTEGRATOR_HEUN, 2, 2},
+             {SPH_INTEGRATOR_SSPRK3, 3, 3},
+             {SPH_INTEGRATOR_BUTCHER, 3, 3},
              {SPH_INTEGRATOR_RKC, 4, 3}};
   sph_context *ctx = context_with(1);
   (void)state;
@@ -273,7 +278,7 @@ static void test_adaptive_loop(void **state) {
     dt = info.suggested_dt;
   }
   smooth_solution(2.0, exact);
-  for (int k = 0; k < 3; ++k) check_close(y[k], exact[k], 1e-4);
+  for (int k = 0; k < 3; ++k) check_close(y[k], exact[k], 2e-3);
   assert_true(rejected >= 1 && taken > 20 && taken < 2000);
   sph_integrator_destroy(it);
   sph_context_destroy(ctx);
@@ -299,9 +304,12 @@ static int32_t tangle(void *user, double t, sph_particles *set, const sph_rate *
   if (count == 3) e = sph_particles_field_const(set, SPH_FIELD_E)[0];
   for (int32_t k = 0; k < count; ++k) {
     double *f = rates[k].values;
-    if (rates[k].field == SPH_FIELD_X) f[0] = v + 0.3 * sin(x + t);
-    else if (rates[k].field == SPH_FIELD_V) f[0] = -e * sin(x) - 0.4 * v * v + cos(2.0 * t);
-    else f[0] = -0.5 * e * v + 0.1 * x * x + 0.2 * sin(t);
+    if (rates[k].field == SPH_FIELD_X)
+      f[0] = v + 0.3 * sin(x + t);
+    else if (rates[k].field == SPH_FIELD_V)
+      f[0] = -e * sin(x) - 0.4 * v * v + cos(2.0 * t);
+    else
+      f[0] = -0.5 * e * v + 0.1 * x * x + 0.2 * sin(t);
   }
   return 0;
 }
