@@ -44,7 +44,6 @@ typedef struct fill {
   int64_t next;  /* first row that is not yet placed */
   int64_t total; /* pairs placed */
   int64_t chunk;
-  int restore;
 } fill;
 
 /* --- one chunk --- */
@@ -155,16 +154,18 @@ static void wave_body(void *job, int64_t begin, int64_t end, int32_t worker) {
 
 /* --- memory --- */
 
-static sph_status reserve_buffers(fill *f) {
+static sph_status reserve_buffers(fill *f, int64_t candidates, int64_t pairs) {
   sphi_pairs *p = f->p;
-  size_t stride = (size_t)p->candidate_capacity + SPHI_CANDIDATE_PADDING + SKEW;
-  size_t each = (size_t)p->slot_capacity + SPHI_CANDIDATE_PADDING;
+  size_t stride = (size_t)candidates + SPHI_CANDIDATE_PADDING + SKEW;
+  size_t each = (size_t)pairs + SPHI_CANDIDATE_PADDING;
   size_t workers = (size_t)sphi_workers(f->ctx);
   sph_status s = sphi_buffer_reserve(f->ctx, &p->b_candidates,
                                      sphi_mul(workers * 5 * sizeof(float), stride));
-  if (s == SPH_OK)
-    s = sphi_buffer_reserve(f->ctx, &p->b_slots,
-                            sphi_mul((size_t)f->slot_count * sizeof(uint32_t), each));
+  if (s != SPH_OK) return s;
+  p->candidate_capacity = candidates;
+  s = sphi_buffer_reserve(f->ctx, &p->b_slots,
+                          sphi_mul((size_t)f->slot_count * sizeof(uint32_t), each));
+  if (s == SPH_OK) p->slot_capacity = pairs;
   return s;
 }
 
@@ -219,7 +220,6 @@ static void hand_out_chunks(fill *f) {
 /* Room for `need` pairs up to row `next`; nothing waits for copying now. */
 static sph_status make_room(fill *f, int64_t need, int64_t next) {
   int64_t most = f->list->options.max_pairs;
-  if (f->restore) return SPH_OK;
   if (most > 0 && need > most)
     return sphi_fail(f->ctx, SPH_ERR_LIMIT, "the particles have more than max_pairs = %lld pairs",
                      (long long)most);
@@ -281,9 +281,7 @@ static sph_status adapt(fill *f) {
   f->chunk = shortest > SPHI_BLOCK ? shortest - shortest / 4 : SPHI_BLOCK;
   if (candidates == p->candidate_capacity && pairs == p->slot_capacity) return SPH_OK;
   flush(f);
-  p->candidate_capacity = candidates;
-  p->slot_capacity = pairs;
-  return reserve_buffers(f);
+  return reserve_buffers(f, candidates, pairs);
 }
 
 static sph_status run_waves(fill *f) {
@@ -293,7 +291,7 @@ static sph_status run_waves(fill *f) {
     run_wave(f);
     s = assign_places(f);
     if (s == SPH_OK) s = adapt(f);
-    if (s == SPH_OK && !f->restore)
+    if (s == SPH_OK)
       s = sphi_progress(f->ctx, (double)f->next / (double)f->l->n, "neighbours");
   }
   if (s == SPH_OK) flush(f);
@@ -344,11 +342,12 @@ static const sphi_search *choose_search(sph_context *ctx) {
 static sph_status set_up(fill *f) {
   int64_t workers = sphi_workers(f->ctx);
   f->slot_count = workers > 1 ? workers * SLOTS_EACH : 1;
-  if (f->p->slot_capacity == 0) f->p->slot_capacity = first_slot;
-  if (f->p->candidate_capacity == 0) f->p->candidate_capacity = FIRST_CANDIDATES;
+  int64_t candidates = f->p->candidate_capacity, pairs = f->p->slot_capacity;
+  if (candidates == 0) candidates = FIRST_CANDIDATES;
+  if (pairs == 0) pairs = first_slot;
   sph_status s =
       sphi_buffer_reserve(f->ctx, &f->p->b_rows, (size_t)f->slot_count * sizeof(slot));
-  if (s == SPH_OK) s = reserve_buffers(f);
+  if (s == SPH_OK) s = reserve_buffers(f, candidates, pairs);
   if (s != SPH_OK) return s;
   f->slots = f->p->b_rows.ptr;
   memset(f->slots, 0, (size_t)f->slot_count * sizeof(slot));
@@ -356,14 +355,40 @@ static sph_status set_up(fill *f) {
   return SPH_OK;
 }
 
-sph_status sphi_fill(sph_neighbors *list, sphi_layout *l, int restore) {
+sph_status sphi_fill(sph_neighbors *list, sphi_layout *l) {
   sph_context *ctx = list->base.ctx;
   fill f = {.list = list, .ctx = ctx, .l = l, .p = &list->priv->pairs, .chunk = CHUNK,
-            .search = choose_search(ctx), .restore = restore};
+            .search = choose_search(ctx)};
   sph_status s = set_up(&f);
-  if (s == SPH_OK && !restore && l->n > 0) s = begin_pairs(&f);
+  if (s == SPH_OK && l->n > 0) s = begin_pairs(&f);
   if (s == SPH_OK && f.p->b_pair.ptr == NULL) s = grow_pairs(&f, 0, 0);
   if (s == SPH_OK) s = run_waves(&f);
   if (s == SPH_OK) finish(&f);
   return s;
+}
+
+/* --- after a failure --- */
+
+/* The row lengths of the old layout are known, so each row goes straight to its place. */
+static void restore_body(void *job, int64_t begin, int64_t end, int32_t worker) {
+  const fill *f = job;
+  sphi_range ranges[SPHI_MAX_RANGES];
+  (void)worker;
+  for (int64_t i = begin; i < end; i++) {
+    sphi_group g;
+    uint32_t cursor = 0;
+    int64_t at = f->l->start[i];
+    int n;
+    sphi_group_set(&g, f->l, i, i + 1);
+    while ((n = next_ranges(&g, home_of(f->l, i), &cursor, ranges)) > 0)
+      for (int k = 0; k < n; k++)
+        for (uint32_t j = ranges[k].begin; j < ranges[k].end; j++)
+          if (sphi_is_pair(f->l, i, j)) f->list->pair[at++] = j;
+  }
+}
+
+void sphi_fill_again(sph_neighbors *list, sphi_layout *l) {
+  fill f = {.list = list, .ctx = list->base.ctx, .l = l, .total = l->start[l->n]};
+  sphi_parallel(f.ctx, l->n, SPHI_BLOCK, restore_body, &f);
+  finish(&f);
 }

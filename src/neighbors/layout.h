@@ -129,8 +129,9 @@ sph_status sphi_layout_build(const sph_neighbors *list, sphi_layout *l, const sp
                              sphi_scratch *tmp);
 
 /* --- fill.c: pairs of a layout into list->pair and layout->start --- */
-/* restore: the layout was filled before; then nothing can fail and nobody is asked. */
-sph_status sphi_fill(sph_neighbors *list, sphi_layout *l, int restore);
+sph_status sphi_fill(sph_neighbors *list, sphi_layout *l);
+/* Once more for a layout that was filled before: slower, needs no memory, cannot fail. */
+void sphi_fill_again(sph_neighbors *list, sphi_layout *l);
 void sphi_pairs_free(sph_context *ctx, sphi_pairs *p);
 
 /* --- cells.c --- */

@@ -169,9 +169,9 @@ static sph_status build(sph_neighbors *list, sphi_input *in) {
   if (s == SPH_OK) s = check_periods(list, in);
   if (s == SPH_OK) s = sphi_layout_build(list, &p->layout[1], in, &p->scratch);
   if (s != SPH_OK) return s;
-  s = sphi_fill(list, &p->layout[1], 0);
+  s = sphi_fill(list, &p->layout[1]);
   /* The one array of pairs was being overwritten: what it held follows from the old layout. */
-  if (s != SPH_OK && list->builds > 0) (void)sphi_fill(list, &p->layout[0], 1);
+  if (s != SPH_OK && list->builds > 0) sphi_fill_again(list, &p->layout[0]);
   if (s == SPH_OK) commit(list);
   return s;
 }
@@ -344,7 +344,9 @@ sph_status sph_neighbors_update_arrays(sph_neighbors *list, int32_t dim, int64_t
   sph_status s = sphi_check_handle(NULL, list, SPHI_MAGIC_NEIGHBORS, "list");
   if (s != SPH_OK) return s;
   sphi_input in = {.dim = dim, .n = n, .x = x, .h = h, .h0 = h0};
-  return update(list, &in, rebuilt);
+  s = update(list, &in, rebuilt);
+  if (s == SPH_OK) list->priv->set = NULL; /* the present positions are no set's */
+  return s;
 }
 
 /* --- questions --- */
