@@ -201,7 +201,7 @@ static void span_of(const sphi_cells *c, const sphi_rule *rule, int axis, double
   int last = sphi_cells_index(c, axis, x + reach);
   if (rule->period[axis] > 0.0) {
     int n = (last - *first + c->count[axis]) % c->count[axis] + 1;
-    if (last == *first && 2.0 * reach * c->wrap[axis] * c->count[axis] > 1.5) return;
+    if (last == *first && 2.0 * reach * c->wrap[axis] * c->count[axis] > 0.999) return; /* all around */
     *count = n;
   } else {
     *count = last - *first + 1;
