@@ -1,0 +1,151 @@
+/* Speed of neighbour lists from scratch: order, cells or tree, and pairs, each build anew.
+ *
+ *   bench_neighbors [n] [repetitions]
+ *
+ * A jittered lattice; medians. Pairs are counted once per direction. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include <sph/context.h>
+#include <sph/neighbors.h>
+
+typedef struct setup {
+  const char *name;
+  int32_t method, dim;
+  int64_t n;
+  double neighbours; /* aimed at, in a full environment */
+  double ratio;      /* largest h over smallest */
+  int shuffled;
+} setup;
+
+static uint64_t seed = 7;
+
+static double uniform(void) {
+  seed = seed * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
+  return (double)(seed >> 11) * 0x1p-53;
+}
+
+static double now(void) {
+  struct timespec t;
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* A cubic lattice of spacing 1, each point moved by up to 0.3. */
+static int64_t lattice(const setup *s, double *x) {
+  int64_t side = (int64_t)floor(pow((double)s->n, 1.0 / s->dim) + 0.5), count = 1;
+  for (int a = 0; a < s->dim; a++) count *= side;
+  for (int64_t i = 0; i < count; i++) {
+    int64_t at[3] = {i % side, i / side % side, i / side / side};
+    for (int a = 0; a < s->dim; a++)
+      x[i * s->dim + a] = (double)at[a] + 0.3 * (2.0 * uniform() - 1.0);
+  }
+  return count;
+}
+
+static void shuffle(double *x, int64_t n, int dim) {
+  for (int64_t i = n - 1; i > 0; i--) {
+    int64_t j = (int64_t)(uniform() * (double)(i + 1));
+    for (int a = 0; a < dim; a++) {
+      double t = x[i * dim + a];
+      x[i * dim + a] = x[j * dim + a];
+      x[j * dim + a] = t;
+    }
+  }
+}
+
+/* Cutoff 2 h for the wanted number of neighbours at spacing 1. With unequal h the spacing stays
+ * and h varies slowly in space, as it does where resolution changes. */
+static void lengths(const setup *s, const double *x, double *h, int64_t n) {
+  double ball = s->dim == 1 ? 2.0 : s->dim == 2 ? acos(-1.0) : 4.0 / 3.0 * acos(-1.0);
+  double base = 0.5 * pow((s->neighbours + 1.0) / ball, 1.0 / s->dim);
+  double side = pow((double)n, 1.0 / s->dim);
+  for (int64_t i = 0; i < n; i++) {
+    double wave = 0.5 + 0.5 * cos(2.0 * acos(-1.0) * x[i * s->dim] / side);
+    h[i] = base * (s->ratio > 1.0 ? pow(s->ratio, 0.5 - wave) : 1.0);
+  }
+}
+
+static int compare(const void *a, const void *b) {
+  double p = *(const double *)a, q = *(const double *)b;
+  return (p > q) - (p < q);
+}
+
+static double median(double *v, int n) {
+  qsort(v, (size_t)n, sizeof *v, compare);
+  return v[n / 2];
+}
+
+static int measure(const setup *s, const double *x, const double *h, int64_t n, int32_t isa,
+                   int32_t threads, int repetitions) {
+  sph_context_options co;
+  sph_neighbors_options no;
+  sph_context *ctx = NULL;
+  sph_neighbors *list = NULL;
+  double seconds[64];
+  sph_context_options_init(&co);
+  co.threads = threads;
+  co.isa = isa;
+  if (sph_context_create(&co, &ctx) != SPH_OK) return 1;
+  sph_neighbors_options_init(&no);
+  no.method = s->method;
+  int failed = sph_neighbors_create(ctx, &no, &list) != SPH_OK;
+  for (int r = -1; r < repetitions && !failed; r++) {
+    double begin = now();
+    failed = sph_neighbors_build_arrays(list, s->dim, n, x, h, 0.0) != SPH_OK;
+    if (r >= 0) seconds[r] = now() - begin;
+  }
+  if (failed) printf("failed: %s\n", sph_context_last_error(ctx));
+  double t = median(seconds, repetitions), pairs = (double)sph_neighbors_pairs(list);
+  int64_t peak = 0;
+  sph_context_memory(ctx, NULL, &peak, NULL);
+  if (!failed)
+    printf("BENCH case=%s dim=%d n=%lld threads=%d isa=%s neighbours=%.1f mpairs_per_s=%.1f "
+           "ns_per_pair=%.3f seconds=%.4f bytes_per_particle=%.0f order=%s\n",
+           s->name, (int)s->dim, (long long)n, (int)threads, sph_isa_name(isa),
+           pairs / (double)n, pairs / t * 1e-6, t / pairs * 1e9, t, (double)peak / (double)n,
+           s->shuffled ? "shuffled" : "spatial");
+  fflush(stdout);
+  sph_neighbors_destroy(list);
+  sph_context_destroy(ctx);
+  return failed;
+}
+
+static int run(const setup *s, int repetitions) {
+  size_t n = (size_t)s->n + 2000;
+  double *x = malloc(n * (size_t)s->dim * 2 * sizeof *x), *h = malloc(n * 2 * sizeof *h);
+  int failed = x == NULL || h == NULL;
+  if (!failed) {
+    int64_t count = lattice(s, x);
+    if (s->shuffled) shuffle(x, count, s->dim);
+    lengths(s, x, h, count);
+    for (int32_t isa = SPH_ISA_AVX512; isa >= SPH_ISA_PORTABLE && !failed; isa--)
+      for (int32_t threads = 1; threads <= 2 && sph_isa_available(isa) && !failed; threads++)
+        failed = measure(s, x, h, count, isa, threads, repetitions);
+  }
+  free(x);
+  free(h);
+  return failed;
+}
+
+int main(int argc, char **argv) {
+  int64_t n = argc > 1 ? atoll(argv[1]) : 1000000;
+  int repetitions = argc > 2 ? atoi(argv[2]) : 5;
+  const setup setups[] = {
+      {"list_cells", SPH_NEIGHBORS_CELLS, 3, n, 74, 1, 0},
+      {"list_cells", SPH_NEIGHBORS_CELLS, 3, n, 62, 1, 0},
+      {"list_cells", SPH_NEIGHBORS_CELLS, 3, n, 74, 1, 1},
+      {"list_cells", SPH_NEIGHBORS_CELLS, 2, n, 28, 1, 0},
+      {"list_cells", SPH_NEIGHBORS_CELLS, 1, n, 6, 1, 0},
+      {"list_tree", SPH_NEIGHBORS_TREE, 3, n, 74, 4, 0},
+      {"list_tree", SPH_NEIGHBORS_TREE, 2, n, 28, 4, 0},
+      {"list_tree", SPH_NEIGHBORS_TREE, 3, n, 74, 1, 0},
+  };
+  if (n < 1 || repetitions < 1 || repetitions > 64) return 2;
+  for (size_t k = 0; k < sizeof setups / sizeof setups[0]; k++)
+    if (run(&setups[k], repetitions)) return 1;
+  return 0;
+}
