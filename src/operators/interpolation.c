@@ -78,7 +78,7 @@ static void interpolate_point(const points_job *j, const double *point, const in
     sum += w;
     for (int32_t c = 0; c < j->components; ++c) out[c] += w * j->f[i * j->components + c];
   }
-  if (j->shepard && sum > 0.0)
+  if (j->shepard && sum != 0.0)
     for (int32_t c = 0; c < j->components; ++c) out[c] /= sum;
 }
 
