@@ -72,15 +72,19 @@ static void invert_range(void *job, int64_t lo, int64_t hi, int32_t worker) {
 
 enum { SCRATCH_COUNTS = 2, INVERT_GRAIN = 4096 };
 
+static sph_status reserve_counts(sph_neighbors *list) {
+  size_t bytes = sphi_mul((size_t)sphi_workers(list->base.ctx), sizeof(int64_t));
+  return sphi_buffer_reserve(list->base.ctx, &list->scratch[SCRATCH_COUNTS], bytes);
+}
+
 static sph_status invert_all(sph_neighbors *list, const sph_operands *own, double *b,
                              int64_t *fallbacks) {
   sph_context *ctx = list->base.ctx;
   int32_t workers = sphi_workers(ctx);
-  size_t bytes = sphi_mul((size_t)workers, sizeof(int64_t));
-  sph_status s = sphi_buffer_reserve(ctx, &list->scratch[SCRATCH_COUNTS], bytes);
+  sph_status s = reserve_counts(list);
   if (s) return s;
   invert_job job = {own->dim, b, list->scratch[SCRATCH_COUNTS].ptr};
-  memset(job.fallbacks, 0, bytes);
+  memset(job.fallbacks, 0, (size_t)workers * sizeof(int64_t));
   sphi_parallel(ctx, own->rows, INVERT_GRAIN, invert_range, &job);
   for (int32_t w = 1; w < workers; ++w) job.fallbacks[0] += job.fallbacks[w];
   if (fallbacks) *fallbacks = job.fallbacks[0];
@@ -102,6 +106,8 @@ sph_status sph_gradient_matrix(sph_neighbors *list, const sph_kernel *kernel,
   sph_operands own;
   sph_status s = sphi_operator_begin(list, kernel, a, SPHI_NEED_M | SPHI_NEED_RHO, inverse,
                                      "sph_gradient_matrix", &own);
+  /* before anything is written */
+  if (!s) s = reserve_counts(list);
   if (s) return s;
   if (matrix) {
     sphi_sweep sweep = sphi_sweep_of(kernel, &own, SPHI_MATRIX);

@@ -112,7 +112,8 @@ sph_status sph_viscosity_bulk(sph_neighbors *list, const sph_kernel *kernel,
     s = sphi_fail(list->base.ctx, SPH_ERR_ARG, "sph_viscosity_bulk: the options are NULL");
   if (!s) s = sphi_options_read(list->base.ctx, &o, sizeof o, options);
   if (!s) s = check_bulk(list->base.ctx, &o);
-  if (!s && (o.linear != 0.0 || o.hk_alpha != 0.0) && !own.c && !(own.c0 > 0.0))
+  if (!s && own.n > 0 && (o.linear != 0.0 || o.hk_alpha != 0.0) && !own.c &&
+      !(own.c0 > 0.0 && isfinite(own.c0)))
     s = sphi_fail(list->base.ctx, SPH_ERR_ARG, "sph_viscosity_bulk: c is NULL and c0 is %g",
                   own.c0);
   return s || own.n == 0 ? s : run_bulk(list, kernel, &own, &o, q, dvdt);

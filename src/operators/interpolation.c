@@ -14,13 +14,9 @@ enum { SCRATCH_SHEPARD = 2 };
 
 static sph_status shepard_divide(sph_neighbors *list, const sph_kernel *kernel,
                                  const sph_operands *own, int32_t components, double *out) {
-  sphi_buffer *b = &list->scratch[SCRATCH_SHEPARD];
-  sph_status s =
-      sphi_buffer_reserve(list->base.ctx, b, sphi_mul((size_t)own->n, sizeof(double)));
-  if (s) return s;
   sphi_sweep sweep = sphi_sweep_of(kernel, own, SPHI_SHEPARD);
-  sweep.shepard = b->ptr;
-  s = sphi_sweep_run(list, &sweep);
+  sweep.shepard = list->scratch[SCRATCH_SHEPARD].ptr;
+  sph_status s = sphi_sweep_run(list, &sweep);
   for (int64_t i = 0; !s && i < own->rows; ++i)
     for (int32_t c = 0; c < components; ++c) out[i * components + c] /= sweep.shepard[i];
   return s;
@@ -32,6 +28,9 @@ sph_status sph_interpolate(sph_neighbors *list, const sph_kernel *kernel, const 
   sph_status s = sphi_operator_begin(list, kernel, a, SPHI_NEED_M | SPHI_NEED_RHO, out,
                                      "sph_interpolate", &own);
   if (!s) s = check_field(list->base.ctx, components, f, "sph_interpolate");
+  if (!s && shepard) /* before anything is written */
+    s = sphi_buffer_reserve(list->base.ctx, &list->scratch[SCRATCH_SHEPARD],
+                            sphi_mul((size_t)own.n, sizeof(double)));
   if (s) return s;
   sphi_sweep sweep = sphi_sweep_of(kernel, &own, SPHI_INTERP);
   sweep.f_stride = sweep.interp_stride = components;
@@ -82,10 +81,15 @@ static void interpolate_point(const points_job *j, const double *point, const in
     for (int32_t c = 0; c < j->components; ++c) out[c] /= sum;
 }
 
+/* The list finds points among the positions it was built from. */
+static double reach_of(const points_job *j) {
+  return j->kernel->support * j->list->h_max + j->list->options.skin;
+}
+
 static void interpolate_range(void *job, int64_t lo, int64_t hi, int32_t worker) {
   const points_job *j = job;
   int32_t *near = j->near + worker * j->room;
-  double radius = j->kernel->support * j->list->h_max;
+  double radius = reach_of(j);
   for (int64_t p = lo; p < hi; ++p) {
     const double *point = j->points + p * j->a->dim;
     int64_t found = sphi_neighbors_near(j->list, point, radius, j->room, near);
@@ -102,7 +106,7 @@ typedef struct count_job {
 static void count_range(void *job, int64_t lo, int64_t hi, int32_t worker) {
   const count_job *c = job;
   const points_job *j = c->points;
-  double radius = j->kernel->support * j->list->h_max;
+  double radius = reach_of(j);
   for (int64_t p = lo; p < hi; ++p) {
     int64_t found = sphi_neighbors_near(j->list, j->points + p * j->a->dim, radius, 0, NULL);
     if (found > c->most[worker]) c->most[worker] = found;

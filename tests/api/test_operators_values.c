@@ -15,43 +15,64 @@ static void expect_close(const oc_case *op, const oc_particles *s, int64_t lengt
                value[k], fabs(out[k] - value[k]) / bound[k]);
 }
 
-/* Every operator over one list per instruction set, against one reference. */
+typedef struct machine {
+  sph_context *ctx;
+  sph_kernel *kernel;
+  sph_neighbors *list;
+} machine;
+
+static machine make_machine(const oc_particles *s, int32_t isa, int32_t type, int32_t rule) {
+  machine m = {0};
+  if (!sph_isa_available(isa)) return m;
+  m.ctx = oc_context(isa, 1);
+  m.kernel = oc_kernel(m.ctx, type, s->dim);
+  m.list = oc_list(m.ctx, s, m.kernel, rule);
+  return m;
+}
+
+static void free_machine(machine *m) {
+  sph_neighbors_destroy(m->list);
+  sph_kernel_destroy(m->kernel);
+  sph_context_destroy(m->ctx);
+}
+
+static void compute(const oc_case *op, const ref_system *system, const oc_particles *s,
+                    int64_t rows) {
+  ref_out o = {value, bound};
+  memset(value, 0, sizeof value);
+  memset(bound, 0, sizeof bound);
+  op->ref(system, s, op, rows, &o);
+}
+
+/* Every operator with every instruction set, against one reference. */
 static void compare(const oc_particles *s, int32_t type, int32_t rule, int corrected, int64_t rows,
                     const char *what) {
-  sph_context *plain = oc_context(SPH_ISA_PORTABLE, 1);
-  sph_kernel *ref_kernel = oc_kernel(plain, type, s->dim);
-  ref_particles particles = oc_reference(s, ref_kernel, rule, corrected);
+  machine m[SPH_ISA_AVX512 + 1];
+  memset(m, 0, sizeof m);
+  for (int32_t isa = SPH_ISA_PORTABLE; isa <= SPH_ISA_AVX512; isa++)
+    m[isa] = make_machine(s, isa, type, rule);
+  ref_particles particles = oc_reference(s, m[SPH_ISA_PORTABLE].kernel, rule, corrected);
   ref_system system = ref_build(&particles);
+  sph_operands a;
+  oc_operands(s, corrected, &a);
+  a.rows = rows == s->n ? 0 : rows;
   assert_true(system.count > 0);
   for (int k = 0; k < OC_CASES; k++) {
     const oc_case *op = &oc_cases[k];
-    ref_out o = {value, bound};
     int64_t length = oc_length(op, s->dim, rows);
     if ((op->flags & OC_NEEDS_MATRIX) && !corrected) continue;
-    memset(value, 0, sizeof value);
-    memset(bound, 0, sizeof bound);
-    op->ref(&system, s, op, rows, &o);
+    compute(op, &system, s, rows);
     for (int32_t isa = SPH_ISA_PORTABLE; isa <= SPH_ISA_AVX512; isa++) {
-      if (!sph_isa_available(isa)) continue;
-      sph_context *ctx = oc_context(isa, 1);
-      sph_kernel *kernel = oc_kernel(ctx, type, s->dim);
-      sph_neighbors *list = oc_list(ctx, s, kernel, rule);
-      sph_operands a;
-      oc_operands(s, corrected, &a);
-      a.rows = rows == s->n ? 0 : rows;
-      oc_call call = oc_call_of(list, kernel, &a, s, out);
+      if (!m[isa].ctx) continue;
+      oc_call call = oc_call_of(m[isa].list, m[isa].kernel, &a, s, out);
       for (int64_t i = 0; i <= length; i++) out[i] = 4.25;
       check_ok(op->run(&call, op));
       expect_close(op, s, length, isa, what);
       assert_true(out[length] == 4.25); /* nothing behind the results */
-      sph_neighbors_destroy(list);
-      sph_kernel_destroy(kernel);
-      sph_context_destroy(ctx);
     }
   }
   ref_free(&system);
-  sph_kernel_destroy(ref_kernel);
-  sph_context_destroy(plain);
+  for (int32_t isa = SPH_ISA_PORTABLE; isa <= SPH_ISA_AVX512; isa++) free_machine(&m[isa]);
 }
 
 static const int64_t side_of[4] = {0, 37, 9, 6};
@@ -116,6 +137,42 @@ static void test_rows(void **state) {
     }
 }
 
+/* Positions that moved after the build, within what the skin of the list allows. */
+static void test_skin(void **state) {
+  (void)state;
+  sph_context *ctx = oc_context(SPH_ISA_AUTO, 1);
+  for (int32_t dim = 1; dim <= 3; dim++) {
+    sph_kernel *kernel = oc_kernel(ctx, SPH_KERNEL_CUBIC_SPLINE, dim);
+    sph_neighbors_options o;
+    sph_neighbors *list = NULL;
+    oc_make(&set, dim, side_of[dim], 0.9, OC_VARY_H | OC_WRAP, 17);
+    sph_neighbors_options_init(&o);
+    o.method = SPH_NEIGHBORS_VERLET;
+    o.skin = 0.8;
+    o.periodic[0] = 1;
+    o.box_hi[0] = set.edge;
+    check_ok(sph_neighbors_create(ctx, &o, &list));
+    check_ok(sph_neighbors_build_arrays(list, dim, set.n, set.x, set.h, 0.0));
+    for (int64_t k = 0; k < set.n * dim; k++)
+      set.x[k] += oc_random(-0.39, 0.39) / sqrt((double)dim);
+    ref_particles particles = oc_reference(&set, kernel, SPH_H_ARITHMETIC, 1);
+    ref_system system = ref_build(&particles);
+    for (int k = 0; k < OC_CASES; k++) {
+      const oc_case *op = &oc_cases[k];
+      sph_operands a;
+      oc_operands(&set, 1, &a);
+      oc_call call = oc_call_of(list, kernel, &a, &set, out);
+      compute(op, &system, &set, set.n);
+      check_ok(op->run(&call, op));
+      expect_close(op, &set, oc_length(op, dim, set.n), sph_context_isa(ctx), "skin");
+    }
+    ref_free(&system);
+    sph_neighbors_destroy(list);
+    sph_kernel_destroy(kernel);
+  }
+  sph_context_destroy(ctx);
+}
+
 /* NULL arrays mean the one value: the same bits as arrays of that value. */
 static void test_uniform_values(void **state) {
   (void)state;
@@ -171,12 +228,9 @@ static void test_host_kernel(void **state) {
     ref_system system = ref_build(&particles);
     for (int k = 0; k < OC_CASES; k++) {
       sph_operands a;
-      ref_out o = {value, bound};
       oc_operands(&set, 1, &a);
       oc_call call = oc_call_of(list, own, &a, &set, out);
-      memset(value, 0, sizeof value);
-      memset(bound, 0, sizeof bound);
-      oc_cases[k].ref(&system, &set, &oc_cases[k], set.n, &o);
+      compute(&oc_cases[k], &system, &set, set.n);
       check_ok(oc_cases[k].run(&call, &oc_cases[k]));
       expect_close(&oc_cases[k], &set, oc_length(&oc_cases[k], 2, set.n), isa, "host kernel");
     }
@@ -417,6 +471,6 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_every_uniformity), cmocka_unit_test(test_periodic),
     cmocka_unit_test(test_rows),             cmocka_unit_test(test_uniform_values),
     cmocka_unit_test(test_host_kernel),      cmocka_unit_test(test_gradient_matrix),
-    cmocka_unit_test(test_same_bits),
+    cmocka_unit_test(test_same_bits),        cmocka_unit_test(test_skin),
 };
 SPH_TEST_MAIN(tests)
