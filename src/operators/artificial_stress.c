@@ -4,8 +4,8 @@
 #include <math.h>
 #include <string.h>
 
-/* R of one principal stress. */
-static double cure(double s, double scale) { return s > 0.0 ? -scale * s : 0.0; }
+/* R of one principal stress; a NaN stays one. */
+static double cure(double s, double scale) { return s <= 0.0 ? 0.0 : -scale * s; }
 
 static void artificial_2d(const double *s, double scale, double *r) {
   double theta = 0.5 * atan2(2.0 * s[2], s[0] - s[1]);

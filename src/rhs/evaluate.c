@@ -2,6 +2,8 @@
  * hook. */
 #include "rhs_impl.h"
 
+#include "../neighbors/layout.h"
+
 #include <string.h>
 
 int32_t sphi_term_field(int32_t kind) {
@@ -86,7 +88,8 @@ static sph_status check_fields(sphi_evaluation *e) {
     if (velocity) s = require(e, a->v, SPH_FIELD_V, k);
     if (!s && sums) s = require(e, a->m, SPH_FIELD_M, k);
     if (!s && sums) s = require(e, a->rho, SPH_FIELD_RHO, k);
-    if (!s && k == SPH_TERM_PRESSURE) s = require(e, a->p, SPH_FIELD_P, k);
+    if (!s && k == SPH_TERM_PRESSURE && !sphi_rhs_has_pressure_law(e->rhs))
+      s = require(e, a->p, SPH_FIELD_P, k);
     if (!s && stress) s = require(e, a->sigma, SPH_FIELD_SIGMA, k);
     if (!s && needs_c(t)) s = require(e, a->c, SPH_FIELD_C, k);
   }
@@ -102,9 +105,24 @@ static sph_status run_hook(sphi_evaluation *e, sph_rhs_hook hook, void *user, co
                    answer, e->t);
 }
 
+/* Whether the list is of these positions. A list of arrays cannot be told apart. */
+static sph_status check_fresh(const sphi_evaluation *e) {
+  const struct sphi_neighbors_private *p = e->list->priv;
+  const sph_particles *set = e->set;
+  if (e->list->builds == 0 || !p->set || e->rhs->options.position_field != SPH_FIELD_X)
+    return SPH_OK;
+  if (p->set == (const void *)set && p->generation == sph_particles_generation(set) &&
+      p->revision_x == sph_particles_revision(set, SPH_FIELD_X) &&
+      p->revision_h == sph_particles_revision(set, SPH_FIELD_H))
+    return SPH_OK;
+  return sphi_fail(e->rhs->base.ctx, SPH_ERR_STALE,
+                   "sph_rhs_evaluate: the set changed after the list was built, and the list is "
+                   "not to be updated here");
+}
+
 static sph_status update_list(sphi_evaluation *e) {
   const sph_operands *a = &e->a;
-  if (!e->rhs->options.update_list) return SPH_OK;
+  if (!e->rhs->options.update_list) return check_fresh(e);
   if (e->rhs->options.position_field == SPH_FIELD_X)
     return sph_neighbors_update(e->list, e->set, NULL);
   return sph_neighbors_update_arrays(e->list, a->dim, a->n, a->x, a->h, a->h0, NULL);
@@ -127,12 +145,22 @@ static void clear_rates(sphi_evaluation *e) {
   }
 }
 
+/* The hook may have added ghosts; the arrays of the rates have no room for more real particles. */
+static sph_status prepare(sphi_evaluation *e) {
+  int64_t rows = e->rows;
+  sph_status s = run_hook(e, e->rhs->prepare, e->rhs->prepare_user, "prepare");
+  if (!s) s = gather(e);
+  if (s || e->rows == rows) return s;
+  return sphi_fail(e->rhs->base.ctx, SPH_ERR_STATE,
+                   "the prepare hook changed the number of real particles from %lld to %lld",
+                   (long long)rows, (long long)e->rows);
+}
+
 static sph_status evaluate(sphi_evaluation *e) {
   sph_rhs *rhs = e->rhs;
   sph_status s = gather(e);
   if (!s) s = check_rates(e);
-  if (!s) s = run_hook(e, rhs->prepare, rhs->prepare_user, "prepare");
-  if (!s) s = gather(e); /* the hook may have added ghosts */
+  if (!s) s = prepare(e);
   if (!s) s = check_fields(e);
   if (!s) s = update_list(e);
   if (!s) s = sphi_rhs_pressures(e);

@@ -92,14 +92,18 @@ static sph_status run_laws(law_job *j, int64_t n) {
                             j->status ? j->status : SPH_ERR_CALLBACK);
 }
 
+int sphi_rhs_has_pressure_law(const sph_rhs *rhs) {
+  int any = 0;
+  for (int32_t p = 0; rhs->material_count > 0 && p < SPHI_PHASES; ++p)
+    any |= sphi_material_has(rhs->materials[p], SPHI_MATERIAL_PRESSURE);
+  return any;
+}
+
 sph_status sphi_rhs_pressures(sphi_evaluation *e) {
   law_job j = {.e = e,
                .property = SPHI_MATERIAL_PRESSURE,
                .phase = sphi_particles_phases(e->set)};
-  int any = 0;
-  for (int32_t p = 0; e->rhs->material_count > 0 && p < SPHI_PHASES; ++p)
-    any |= sphi_material_has(e->rhs->materials[p], SPHI_MATERIAL_PRESSURE);
-  if (!any || e->rows == 0) return SPH_OK;
+  if (!sphi_rhs_has_pressure_law(e->rhs) || e->rows == 0) return SPH_OK;
   sph_status s = sph_particles_field(e->set, SPH_FIELD_P, &j.out);
   if (s) return s;
   e->a.p = j.out;

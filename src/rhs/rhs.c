@@ -83,7 +83,14 @@ static int can_be_corrected(const sph_term *t) {
          t->kind == SPH_TERM_BULK_VISCOSITY || t->kind == SPH_TERM_ARTIFICIAL_STRESS;
 }
 
-static sph_status check_numbers(sph_context *ctx, const sph_term *t) {
+/* W(dp) divides: dp must lie within the support. */
+static int has_spacing(const sph_kernel *kernel, double ratio) {
+  double w = 0.0, dw;
+  if (ratio > 0.0 && ratio < kernel->support) sphi_kernel_profile(kernel, ratio, &w, &dw);
+  return w != 0.0;
+}
+
+static sph_status check_numbers(sph_context *ctx, const sph_kernel *kernel, const sph_term *t) {
   if (!isfinite(t->alpha) || !isfinite(t->beta) || !isfinite(t->epsilon) ||
       !isfinite(t->neumann) || !isfinite(t->linear) || !isfinite(t->spacing) ||
       !isfinite(t->vector[0]) || !isfinite(t->vector[1]) || !isfinite(t->vector[2]))
@@ -93,9 +100,10 @@ static sph_status check_numbers(sph_context *ctx, const sph_term *t) {
       !(t->spacing > 0.0))
     return sphi_fail(ctx, SPH_ERR_ARG, "sph_rhs_add: bulk viscosity with spacing %g", t->spacing);
   if (t->kind == SPH_TERM_ARTIFICIAL_STRESS &&
-      (!(t->spacing_ratio > 0.0) || !isfinite(t->spacing_ratio) || t->power < 1 || t->power > 16))
-    return sphi_fail(ctx, SPH_ERR_ARG, "sph_rhs_add: artificial stress, spacing_ratio %g, power %d",
-                     t->spacing_ratio, t->power);
+      (!has_spacing(kernel, t->spacing_ratio) || t->power < 1 || t->power > 16))
+    return sphi_fail(ctx, SPH_ERR_ARG,
+                     "sph_rhs_add: artificial stress, spacing_ratio %g (support %g), power %d",
+                     t->spacing_ratio, kernel->support, t->power);
   return SPH_OK;
 }
 
@@ -111,7 +119,7 @@ static sph_status check_term(sph_rhs *rhs, sph_term *t) {
   if (t->corrected && !can_be_corrected(t))
     return sphi_fail(ctx, SPH_ERR_ARG, "sph_rhs_add: kind %d, form %d has no corrected gradient",
                      t->kind, t->form);
-  return check_numbers(ctx, t);
+  return check_numbers(ctx, rhs->kernel, t);
 }
 
 sph_status sph_rhs_add(sph_rhs *rhs, const sph_term *term) {

@@ -61,6 +61,8 @@ int sphi_term_wanted(const sphi_evaluation *e, int32_t kind);
 /* The field a kind of term adds to. */
 int32_t sphi_term_field(int32_t kind);
 
+/* Whether some material has a pressure law; P then need not exist before. */
+int sphi_rhs_has_pressure_law(const sph_rhs *rhs);
 sph_status sphi_rhs_pressures(sphi_evaluation *e);    /* P from the materials that have a law */
 sph_status sphi_rhs_sweeps(sphi_evaluation *e);       /* every pair sum of the library's own terms */
 sph_status sphi_rhs_host_terms(sphi_evaluation *e);   /* the host's pair sums */
