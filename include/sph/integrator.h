@@ -24,7 +24,7 @@
  *   PC2, Heun    2        2         2       0 (weak)    none (weak)      0.45
  *   SSPRK3       3        3         2.51    1.73        2.48             0.57
  *   RK4, 3/8     4        4         2.785   2.828       4.06             0.63
- *   leapfrog     2        2 or 3    2 or 3  2           2.87             -
+ *   leapfrog     2        2 or 3    2, 3.09 2           2.87             -
  *   RKC          2        s         0.653 (s^2 - 1)   0 (weak)   see below   6.1
  *
  * The published viscosity acts on approaching pairs only, which hides the limits: the runs of He
@@ -70,31 +70,42 @@ enum {
  * Stable for omega dt < 2. */
 
 /* RKC (He 4.17; Verwer, Hundsdorfer, Sommeijer; rkc.f), F_k = F(t + c_k dt, Y_k):
- *   Y_0 = U;  Y_1 = Y_0 + mu~_1 dt F_0;  U+ = Y_s
- *   Y_k = mu_k Y_{k-1} + nu_k Y_{k-2} + (1 - mu_k - nu_k) Y_0 + mu~_k dt F_{k-1} + gamma~_k dt F_0
- * (He & Seaid 25 lack dt and start from a U~ that no longer exists).
- *   w0 = 1 + eps / s^2, eps = 2/13;  w1 = T_s'(w0) / T_s''(w0);
- *   b_k = T_k''(w0) / T_k'(w0)^2 for k >= 2, b_0 = b_2, b_1 by choice (below);
- *   mu~_1 = b_1 w1;  mu_k = 2 w0 b_k / b_{k-1};  nu_k = -b_k / b_{k-2};  mu~_k = 2 w1 b_k /
- * b_{k-1}; gamma~_k = -(1 - b_{k-1} T_{k-1}(w0)) mu~_k      (He & Seaid miss the minus: no
- * convergence then) c_k = w1 T_k''(w0) / T_k'(w0), c_1 = mu~_1. As w0 > 1 the T_k come from T_k = 2
- * x T_{k-1} - T_{k-2}, not from cos(k arccos x) as printed. Stability polynomial P_s(z) = 1 - b_s
- * T_s(w0) + b_s T_s(w0 + w1 z).
+ *
+ *   Y_0 = U,  Y_1 = Y_0 + mu~_1 dt F_0,  U+ = Y_s, and for k = 2 .. s
+ *   Y_k = mu_k Y_{k-1} + nu_k Y_{k-2} + (1 - mu_k - nu_k) Y_0
+ *         + mu~_k dt F_{k-1} + gamma~_k dt F_0
+ *
+ *   w0 = 1 + eps / s^2,  eps = 2/13,  w1 = T_s'(w0) / T_s''(w0)
+ *   b_k = T_k''(w0) / T_k'(w0)^2 for k >= 2,  b_0 = b_2,  b_1 by choice (below)
+ *   mu~_1 = b_1 w1,  mu~_k = 2 w1 b_k / b_{k-1}
+ *   mu_k = 2 w0 b_k / b_{k-1},  nu_k = -b_k / b_{k-2}
+ *   gamma~_k = -(1 - b_{k-1} T_{k-1}(w0)) mu~_k
+ *   c_1 = mu~_1,  c_k = w1 T_k''(w0) / T_k'(w0)
+ *   P_s(z) = 1 - b_s T_s(w0) + b_s T_s(w0 + w1 z), the stability polynomial
+ *
+ * Errata: He & Seaid miss the minus in gamma~ (with a plus nothing converges for s >= 3), print
+ * mu~ F and gamma~ F without dt, and start from a U~ that no longer exists. Both sources print
+ * T_k(x) = cos(k arccos x), which does not exist at w0 > 1: the T_k and their derivatives come from
+ * the recurrence T_k = 2 x T_{k-1} - T_{k-2}.
  *
  * Where RKC helps: where the spectrum lies along the negative real axis, that is where viscosity,
  * conduction or diffusion limits the step. The stable step grows as s^2, the cost as s: on the
  * negative real axis five stages go as far as RK4 goes with 4.5 times as many evaluations.
+ *
  * Where it does not help: pure waves. On the imaginary axis |P_s(i y)| = 1 + k y^4 > 1 for every s
  * (k = .125, .062, .048, .043, .037, .035 for s = 2, 3, 4, 5, 10, 20), so that an inviscid wave
  * grows at every step: by 1.0019 at CFL 0.6, 1.0147 at 1.0, 1.024 at 1.2, 1.357 at 2.5 (cubic
- * spline, h = 1.5 dp). More stages or more damping lower k, never to 0. Use RK4 there, or CFL <=
- * 0.5. He & Seaid call RKC stable independently of CFL. It is not: with the published stage rule
- * and a viscosity alpha the limit is CFL 2.8, 3.9, 4.8, 5.4, 6.1 for alpha = .5, 1, 1.5, 2, 2.5,
- * and at CFL 2.5 alpha must lie within 0.35 .. 3.77. The integrator looks at the dominant
- * eigenvalue now and then (stability_check_interval) and says so through the log hook, level
- * WARNING, once in the life of a handle, when a step amplifies that mode by more than 1.001. What
- * it sees is the mode of largest |lambda|; a smaller one that is amplified, which can happen a
- * little inside the limits above, goes unnoticed. */
+ * spline, h = 1.5 dp). More stages or more damping lower k, never to 0. Use RK4 there, or
+ * CFL <= 0.5.
+ *
+ * He & Seaid call RKC stable independently of CFL. It is not: with the published stage rule and a
+ * viscosity alpha = .5, 1, 1.5, 2, 2.5 the limit is CFL 2.8, 3.9, 4.8, 5.4, 6.1, and at CFL 2.5
+ * alpha must lie within 0.35 .. 3.77.
+ *
+ * The integrator looks at the dominant eigenvalue now and then (stability_check_interval), and
+ * when a step amplifies that mode by more than 1.001 it says so through the log hook, level
+ * WARNING, once in the life of a handle. It sees the mode of largest |lambda| only: a smaller one
+ * that is amplified, which can happen a little inside the limits above, goes unnoticed. */
 
 /* Choice of b_1 in RKC; both have the same stability polynomial. */
 enum {
@@ -112,7 +123,11 @@ enum {
   SPH_STAGES_RADIUS = 3, /* s = 1 + floor(sqrt(1 + dt rho / 0.653)), rho from the host's
                           * callback; He & Seaid 26, with the dt they miss */
   SPH_STAGES_POWER = 4   /* the same, rho by power iteration on the right-hand side, times
-                          * power_safety */
+                          * power_safety; up to eight stages more where those stop the growth of a
+                          * damped wave. Viscosities that act on approaching pairs only show half of
+                          * their radius at rest: give such a run a few small steps first.
+                          * Only the largest mode counts: where wave and viscosity are of one size
+                          * (alpha about 0.5 and below), take CFL, or RK4 */
 };
 
 /* d y/dt at time t. The bound fields of `set` (real particles) or the bound arrays hold the stage's
@@ -153,16 +168,18 @@ typedef struct sph_integrator_options {
       power_iterations;   /* at most so many evaluations for one estimate, 1..1000; default 50.
                            * It ends when the radius changes by less than 0.5 %, usually after 5
                            * to 15; later estimates start from the last direction and take 3 to 6 */
-  int32_t power_interval; /* POWER: re-estimate after this many steps; default 25. After a step
-                           * that ended in SPH_ERR_NUMERIC the next one re-estimates, too */
+  int32_t power_interval; /* POWER: re-estimate after this many steps; default 25. At first after
+                           * 1, 2, 4 .. steps, and in the step after one that ended in
+                           * SPH_ERR_NUMERIC */
   double rtol, atol;      /* of the error estimate, >= 0, not both 0; defaults 1e-3, 1e-6 */
   int32_t check_finite;   /* nonzero: a step whose result is not finite fails (SPH_ERR_NUMERIC);
                              default 1 */
-  int32_t stability_check_interval; /* look at the dominant eigenvalue in the first step and again
-                                     * after so many, with at most 20 evaluations each time; 0:
-                                     * never; -1 (default): 100 for RKC, never for the others.
-                                     * Leapfrog never looks; the rule POWER judges each of its steps
-                                     * by its own estimate, free of charge */
+  int32_t
+      stability_check_interval; /* look at the dominant eigenvalue in the first step, 10 steps
+                                 * later, and again after each so many, with at most 20
+                                 * evaluations each time; 0: never; -1 (default): 100 for RKC, never
+                                 * for the others. Leapfrog never looks; the rule POWER judges each
+                                 * of its steps by its own estimate, free of charge */
 } sph_integrator_options;
 /* Fill *options with the defaults. Since 0.1. */
 SPH_API void sph_integrator_options_init_sized(sph_integrator_options *options, size_t size);

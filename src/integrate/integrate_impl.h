@@ -165,6 +165,8 @@ double sphi_eigen_radius(const sphi_eigen *eigen);
 /* Estimate when it is due, put the state back, and warn when one step of `stages` stages amplifies
  * the dominant mode. */
 sph_status sphi_stability_watch(sphi_step *step, const double *f0, int32_t stages);
+/* `stages`, or up to eight more where those stop the growth of the dominant mode (RKC). */
+int32_t sphi_stability_stages(const sphi_step *step, int32_t stages);
 /* Judge memory.eigen for this step: sets memory.growth, warns once. */
 void sphi_stability_judge(sphi_step *step, int32_t stages);
 

@@ -76,9 +76,14 @@ static sph_status stages_beforehand(sphi_step *step) {
   }
 }
 
+/* At first the intervals double, 1, 2, 4 ..: a run often starts at rest, where a viscosity that
+ * acts on approaching pairs shows half of its radius. */
 static int32_t estimate_is_due(const sph_integrator *it) {
   const sphi_memory *m = &it->memory;
-  return m->estimated_at < 0 || m->steps - m->estimated_at >= it->options.power_interval;
+  int64_t interval = it->options.power_interval;
+  if (m->estimated_at < 0) return 1;
+  if (m->estimated_at + 1 < interval) interval = m->estimated_at + 1;
+  return m->steps - m->estimated_at >= interval;
 }
 
 static sph_status take_estimate(sphi_step *step) {
@@ -105,6 +110,7 @@ static sph_status stages_by_power(sphi_step *step) {
   }
   double radius = it->options.power_safety * sphi_eigen_radius(&it->memory.eigen);
   sph_status status = bound_stages(step, sph_rkc_stages_radius(step->dt, radius), radius);
+  if (status == SPH_OK) step->info->stages = sphi_stability_stages(step, step->info->stages);
   if (status == SPH_OK) sphi_stability_judge(step, step->info->stages);
   return status;
 }

@@ -9,7 +9,7 @@
 
 static const double tolerated_growth = 1.001; /* of one step, beyond that of the exact solution */
 static const double believable = 0.3;         /* residual above which no judgement is passed */
-enum { WATCH_ITERATIONS = 20 };
+enum { WATCH_ITERATIONS = 20, WATCH_SECOND = 10, STAGES_MORE = 8 };
 
 static double amplification(const sph_integrator *it, int32_t stages, double re, double im) {
   return it->options.method == SPH_INTEGRATOR_RKC
@@ -66,11 +66,26 @@ void sphi_stability_judge(sphi_step *step, int32_t stages) {
     warn_real(step, stages, sphi_eigen_radius(eigen), growth);
 }
 
+/* The radius counts real modes. A damped wave, off the axis, may need a few stages more; a pure one
+ * is beyond help. */
+int32_t sphi_stability_stages(const sphi_step *step, int32_t stages) {
+  const sph_integrator *it = step->it;
+  const sphi_eigen *eigen = &it->memory.eigen;
+  double re = step->dt * eigen->re, im = step->dt * eigen->im;
+  if (re >= 0.0 || im == 0.0 || eigen->residual > believable) return stages;
+  for (int32_t s = stages; s <= stages + STAGES_MORE && s <= it->options.max_stages; ++s)
+    if (sph_rkc_amplification(s, re, im) <= 1.0) return s;
+  return stages;
+}
+
+/* In the first step, a little later, as a run often starts at rest, and then at the interval. */
 static int32_t watch_is_due(const sph_integrator *it) {
   const sphi_memory *m = &it->memory;
-  int32_t interval = it->options.stability_check_interval;
+  int64_t interval = it->options.stability_check_interval;
   if (interval <= 0) return 0;
-  return m->estimated_at < 0 || m->steps - m->estimated_at >= interval;
+  if (m->estimated_at < 0) return 1;
+  if (m->estimated_at == 0 && interval > WATCH_SECOND) interval = WATCH_SECOND;
+  return m->steps - m->estimated_at >= interval;
 }
 
 sph_status sphi_stability_watch(sphi_step *step, const double *f0, int32_t stages) {
