@@ -16,6 +16,7 @@ enum {
   CHUNK = 1024,              /* rows of a chunk, as long as slots suffice */
   SLOTS_EACH = 4,            /* slots a worker: for balance */
   FIRST_CANDIDATES = 4096,
+  ARRAYS = 8,                /* of candidates: see sphi_candidates */
   SKEW = 80,                 /* so that candidate arrays do not start at the same cache sets */
   SAMPLES = 96
 };
@@ -50,11 +51,12 @@ typedef struct fill {
 
 static sphi_candidates candidates_of(const fill *f, int32_t worker) {
   size_t stride = (size_t)f->p->candidate_capacity + SPHI_CANDIDATE_PADDING + SKEW;
-  float *base = (float *)f->p->b_candidates.ptr + 5 * stride * (size_t)worker;
+  float *base = (float *)f->p->b_candidates.ptr + ARRAYS * stride * (size_t)worker;
   sphi_candidates c;
   for (size_t a = 0; a < 3; a++) c.x[a] = base + a * stride;
   c.s = base + 3 * stride;
   c.index = (uint32_t *)(void *)(base + 4 * stride);
+  for (size_t r = 0; r < 3; r++) c.row[r] = (uint32_t *)(void *)(base + (5 + r) * stride);
   c.count = 0;
   c.capacity = f->p->candidate_capacity;
   return c;
@@ -124,7 +126,7 @@ static void search_chunk(const fill *f, slot *s, uint32_t *out, int32_t worker) 
   while (s->done < s->end) {
     int64_t end = group_end(f->l, s->done, s->end, &home), done;
     sphi_group_set(&g, f->l, s->done, end);
-    const sphi_search *search = g.scale > 0.0 ? f->search : &sphi_search_exact;
+    const sphi_search *search = g.single ? f->search : &sphi_search_exact;
     s->need_candidates = gather(search, &g, home, &c);
     if (s->need_candidates > 0) return;
     done = search->rows(&g, &c, out, f->p->slot_capacity, &s->count, f->l->start);
@@ -160,7 +162,7 @@ static sph_status reserve_buffers(fill *f, int64_t candidates, int64_t pairs) {
   size_t each = (size_t)pairs + SPHI_CANDIDATE_PADDING;
   size_t workers = (size_t)sphi_workers(f->ctx);
   sph_status s = sphi_buffer_reserve(f->ctx, &p->b_candidates,
-                                     sphi_mul(workers * 5 * sizeof(float), stride));
+                                     sphi_mul(workers * ARRAYS * sizeof(float), stride));
   if (s != SPH_OK) return s;
   p->candidate_capacity = candidates;
   s = sphi_buffer_reserve(f->ctx, &p->b_slots,

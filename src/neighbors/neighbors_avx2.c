@@ -10,7 +10,9 @@
 #define W 8
 #define ALL 0xffu
 #define SEARCH sphi_search_avx2
+#define ROWS_AT_ONCE 2
 typedef __m256 vf;
+typedef __m256 vm; /* all bits of a lane */
 
 #include "permute.inc"
 
@@ -24,18 +26,19 @@ static inline vf vf_fma(vf a, vf b, vf c) { return _mm256_fmadd_ps(a, b, c); }
 static inline vf vf_min(vf a, vf b) { return _mm256_min_ps(a, b); }
 static inline vf vf_max(vf a, vf b) { return _mm256_max_ps(a, b); }
 static inline vf vf_abs(vf a) { return _mm256_andnot_ps(_mm256_set1_ps(-0.0f), a); }
-static inline uint32_t vf_less(vf a, vf b) {
-  return (uint32_t)_mm256_movemask_ps(_mm256_cmp_ps(a, b, _CMP_LT_OQ));
-}
+static inline vm vf_less(vf a, vf b) { return _mm256_cmp_ps(a, b, _CMP_LT_OQ); }
+static inline vm vm_none(void) { return _mm256_setzero_ps(); }
+static inline vm vm_or(vm a, vm b) { return _mm256_or_ps(a, b); }
+static inline vm vm_xor(vm a, vm b) { return _mm256_xor_ps(a, b); }
+static inline uint32_t vm_bits(vm a) { return (uint32_t)_mm256_movemask_ps(a); }
 
 static inline vf join(__m256d a, __m256d b) {
   return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm256_cvtpd_ps(a)), _mm256_cvtpd_ps(b), 1);
 }
 
-static inline vf vf_relative(const double *x, double center, double scale) {
-  __m256d c = _mm256_set1_pd(center), s = _mm256_set1_pd(scale);
-  return join(_mm256_mul_pd(_mm256_sub_pd(_mm256_loadu_pd(x), c), s),
-              _mm256_mul_pd(_mm256_sub_pd(_mm256_loadu_pd(x + 4), c), s));
+static inline vf vf_relative(const double *x, double center) {
+  __m256d c = _mm256_set1_pd(center);
+  return join(_mm256_sub_pd(_mm256_loadu_pd(x), c), _mm256_sub_pd(_mm256_loadu_pd(x + 4), c));
 }
 
 static inline __m256d wrapped(__m256d d, double period, double inverse) {
@@ -44,22 +47,24 @@ static inline __m256d wrapped(__m256d d, double period, double inverse) {
   return _mm256_sub_pd(d, _mm256_mul_pd(_mm256_set1_pd(period), _mm256_sub_pd(turns, magic)));
 }
 
-static inline vf vf_relative_wrapped(const double *x, double center, double scale,
-                                     double period, double inverse) {
-  __m256d c = _mm256_set1_pd(center), s = _mm256_set1_pd(scale);
-  __m256d a = wrapped(_mm256_sub_pd(_mm256_loadu_pd(x), c), period, inverse);
-  __m256d b = wrapped(_mm256_sub_pd(_mm256_loadu_pd(x + 4), c), period, inverse);
-  return join(_mm256_mul_pd(a, s), _mm256_mul_pd(b, s));
-}
-
-static inline vf vf_scaled(const double *x, double scale) {
-  __m256d s = _mm256_set1_pd(scale);
-  return join(_mm256_mul_pd(_mm256_loadu_pd(x), s), _mm256_mul_pd(_mm256_loadu_pd(x + 4), s));
+static inline vf vf_relative_wrapped(const double *x, double center, double period,
+                                     double inverse) {
+  __m256d c = _mm256_set1_pd(center);
+  return join(wrapped(_mm256_sub_pd(_mm256_loadu_pd(x), c), period, inverse),
+              wrapped(_mm256_sub_pd(_mm256_loadu_pd(x + 4), c), period, inverse));
 }
 
 static inline __m256i to_front(__m256i v, uint32_t keep) {
   __m128i bytes = _mm_cvtsi64_si128((long long)permute[keep]);
   return _mm256_permutevar8x32_epi32(v, _mm256_cvtepu8_epi32(bytes));
+}
+
+static inline __m256i load_indices(const uint32_t *p) {
+  return _mm256_loadu_si256((const __m256i *)(const void *)p);
+}
+
+static inline void store_indices(uint32_t *p, __m256i v) {
+  _mm256_storeu_si256((__m256i *)(void *)p, v);
 }
 
 static inline void put_floats(float *p, vf v, uint32_t keep) {
@@ -70,12 +75,16 @@ static inline void put_floats(float *p, vf v, uint32_t keep) {
 static inline void put_counted(uint32_t *p, uint32_t first, uint32_t keep) {
   __m256i v = _mm256_add_epi32(_mm256_set1_epi32((int)first),
                                _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
-  _mm256_storeu_si256((__m256i *)(void *)p, to_front(v, keep));
+  store_indices(p, to_front(v, keep));
 }
 
-static inline void put_indices(uint32_t *p, const uint32_t *from, uint32_t keep) {
-  __m256i v = _mm256_loadu_si256((const __m256i *)(const void *)from);
-  _mm256_storeu_si256((__m256i *)(void *)p, to_front(v, keep));
+static inline uint32_t *put_indices(uint32_t *p, const uint32_t *from, uint32_t keep) {
+  store_indices(p, to_front(load_indices(from), keep));
+  return p + __builtin_popcount(keep);
+}
+
+static inline void copy_indices(uint32_t *to, const uint32_t *from) {
+  store_indices(to, load_indices(from));
 }
 
 #include "search.inc"

@@ -12,7 +12,9 @@
 #define W 16
 #define ALL 0xffffu
 #define SEARCH sphi_search_avx512
+#define ROWS_AT_ONCE 4
 typedef __m512 vf;
+typedef __mmask16 vm;
 
 static inline vf vf_set(float x) { return _mm512_set1_ps(x); }
 static inline vf vf_load(const float *p) { return _mm512_loadu_ps(p); }
@@ -24,16 +26,19 @@ static inline vf vf_fma(vf a, vf b, vf c) { return _mm512_fmadd_ps(a, b, c); }
 static inline vf vf_min(vf a, vf b) { return _mm512_min_ps(a, b); }
 static inline vf vf_max(vf a, vf b) { return _mm512_max_ps(a, b); }
 static inline vf vf_abs(vf a) { return _mm512_abs_ps(a); }
-static inline uint32_t vf_less(vf a, vf b) { return _mm512_cmp_ps_mask(a, b, _CMP_LT_OQ); }
+static inline vm vf_less(vf a, vf b) { return _mm512_cmp_ps_mask(a, b, _CMP_LT_OQ); }
+static inline vm vm_none(void) { return 0; }
+static inline vm vm_or(vm a, vm b) { return _kor_mask16(a, b); }
+static inline vm vm_xor(vm a, vm b) { return _kxor_mask16(a, b); }
+static inline uint32_t vm_bits(vm a) { return _cvtmask16_u32(a); }
 
 static inline vf join(__m512d a, __m512d b) {
   return _mm512_insertf32x8(_mm512_castps256_ps512(_mm512_cvtpd_ps(a)), _mm512_cvtpd_ps(b), 1);
 }
 
-static inline vf vf_relative(const double *x, double center, double scale) {
-  __m512d c = _mm512_set1_pd(center), s = _mm512_set1_pd(scale);
-  return join(_mm512_mul_pd(_mm512_sub_pd(_mm512_loadu_pd(x), c), s),
-              _mm512_mul_pd(_mm512_sub_pd(_mm512_loadu_pd(x + 8), c), s));
+static inline vf vf_relative(const double *x, double center) {
+  __m512d c = _mm512_set1_pd(center);
+  return join(_mm512_sub_pd(_mm512_loadu_pd(x), c), _mm512_sub_pd(_mm512_loadu_pd(x + 8), c));
 }
 
 static inline __m512d wrapped(__m512d d, double period, double inverse) {
@@ -42,17 +47,11 @@ static inline __m512d wrapped(__m512d d, double period, double inverse) {
   return _mm512_sub_pd(d, _mm512_mul_pd(_mm512_set1_pd(period), _mm512_sub_pd(turns, magic)));
 }
 
-static inline vf vf_relative_wrapped(const double *x, double center, double scale,
-                                     double period, double inverse) {
-  __m512d c = _mm512_set1_pd(center), s = _mm512_set1_pd(scale);
-  __m512d a = wrapped(_mm512_sub_pd(_mm512_loadu_pd(x), c), period, inverse);
-  __m512d b = wrapped(_mm512_sub_pd(_mm512_loadu_pd(x + 8), c), period, inverse);
-  return join(_mm512_mul_pd(a, s), _mm512_mul_pd(b, s));
-}
-
-static inline vf vf_scaled(const double *x, double scale) {
-  __m512d s = _mm512_set1_pd(scale);
-  return join(_mm512_mul_pd(_mm512_loadu_pd(x), s), _mm512_mul_pd(_mm512_loadu_pd(x + 8), s));
+static inline vf vf_relative_wrapped(const double *x, double center, double period,
+                                     double inverse) {
+  __m512d c = _mm512_set1_pd(center);
+  return join(wrapped(_mm512_sub_pd(_mm512_loadu_pd(x), c), period, inverse),
+              wrapped(_mm512_sub_pd(_mm512_loadu_pd(x + 8), c), period, inverse));
 }
 
 static inline void put_floats(float *p, vf v, uint32_t keep) {
@@ -67,8 +66,14 @@ static inline void put_counted(uint32_t *p, uint32_t first, uint32_t keep) {
   _mm512_storeu_si512(p, _mm512_maskz_compress_epi32((__mmask16)keep, v));
 }
 
-static inline void put_indices(uint32_t *p, const uint32_t *from, uint32_t keep) {
-  _mm512_storeu_si512(p, _mm512_maskz_compress_epi32((__mmask16)keep, _mm512_loadu_si512(from)));
+static inline uint32_t *put_indices(uint32_t *p, const uint32_t *from, uint32_t keep) {
+  __m512i v = _mm512_loadu_si512(from);
+  _mm512_storeu_si512(p, _mm512_maskz_compress_epi32((__mmask16)keep, v));
+  return p + __builtin_popcount(keep);
+}
+
+static inline void copy_indices(uint32_t *to, const uint32_t *from) {
+  _mm512_storeu_si512(to, _mm512_loadu_si512(from));
 }
 
 #include "search.inc"

@@ -38,33 +38,40 @@ static int images_are_unique(const sphi_group *g, double reach) {
   return 1;
 }
 
-static void set_scale(sphi_group *g) {
+/* Squares of lengths must stay well inside the range of single precision. */
+static double set_precision(sphi_group *g) {
   const sphi_rule *rule = &g->l->rule;
-  double reach = rule->cut, most = 0.0;
-  for (int a = 0; a < rule->dim; a++) most = fmax(most, g->half[a]);
-  most += reach;
-  g->scale = most > 1e-150 && most < 1e150 && images_are_unique(g, reach) ? 1.0 / most : 0.0;
+  double size = 0.0;
+  for (int a = 0; a < rule->dim; a++) size = fmax(size, g->half[a]);
+  size += rule->cut;
+  g->single = size > 1e-12 && size < 1e12 && images_are_unique(g, rule->cut);
+  return size;
+}
+
+static void set_bounds(sphi_group *g, double size) {
+  const sphi_rule *rule = &g->l->rule;
+  double linear = SPHI_DOUBT_LINEAR * size, constant = SPHI_DOUBT_CONSTANT * size * size;
+  double square = rule->cut * rule->cut;
+  double doubt = linear * rule->cut + SPHI_DOUBT_SQUARE * square + constant;
+  g->low = (float)(square - doubt);
+  g->high = (float)(square + doubt);
+  g->doubt_linear = (float)linear;
+  g->doubt_constant = (float)constant;
+  for (int a = 0; a < 3; a++) g->box[a] = (float)(g->half[a] * (1.0 + 1e-6) + 1e-6 * size);
+  g->skin = (float)rule->skin;
+  g->s_group = (float)g->s;
 }
 
 void sphi_group_set(sphi_group *g, const sphi_layout *l, int64_t begin, int64_t end) {
-  const sphi_rule *rule = &l->rule;
   g->l = l;
   g->begin = begin;
   g->end = end;
   g->s = 0.0;
   for (int a = 0; a < 3; a++) g->center[a] = g->half[a] = 0.0;
   for (int a = 0; a < l->dim; a++) box_of_rows(g, a);
-  if (!rule->uniform) g->s = bound_of_rows(g);
-  set_scale(g);
-  double c = rule->cut * g->scale;
-  double doubt = SPHI_DOUBT_LINEAR * c + SPHI_DOUBT_SQUARE * c * c + SPHI_DOUBT_CONSTANT;
-  for (int a = 0; a < 3; a++) g->box[a] = (float)(g->half[a] * g->scale * (1.0 + 1e-6) + 1e-6);
-  g->low = (float)(c * c - doubt);
-  g->high = (float)(c * c + doubt);
-  g->skin = (float)(rule->skin * g->scale);
-  g->s_scale = g->scale;
-  if (rule->h_rule == SPH_H_HARMONIC && g->scale > 0.0) g->s_scale = 1.0 / g->scale;
-  g->s_group = (float)(g->s * g->s_scale);
+  if (!l->rule.uniform) g->s = bound_of_rows(g);
+  double size = set_precision(g);
+  if (g->single) set_bounds(g, size);
 }
 
 uint32_t sphi_exact_lanes(const sphi_layout *l, int64_t i, const uint32_t *index,

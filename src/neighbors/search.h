@@ -1,6 +1,6 @@
 /* Finding the pairs of a group: gather candidates, test every row against them.
  *
- * Candidates are copied, relative to the centre of the group and scaled to at most 1, into
+ * Candidates are copied, relative to the centre of the group, into
  * single-precision arrays; those too far from the box of the group are dropped. A row is then
  * tested in single precision against two bounds: below the lower one a candidate certainly is a
  * neighbour, above the upper one it certainly is none, and the few in between are decided by
@@ -16,6 +16,7 @@ enum { SPHI_CANDIDATE_PADDING = 16 };
 typedef struct sphi_candidates {
   float *x[3], *s;
   uint32_t *index; /* sweep positions, ascending */
+  uint32_t *row[3]; /* room for as many indices: rows that are found at the same time */
   int64_t count;
   int64_t capacity; /* SPHI_CANDIDATE_PADDING more can be written */
 } sphi_candidates;
@@ -25,18 +26,19 @@ typedef struct sphi_group {
   int64_t begin, end; /* rows */
   double center[3], half[3]; /* box of the rows */
   double s;           /* bound of their s */
-  double scale;       /* 1 / (half width + reach); 0: only the exact test is possible */
-  float box[3];       /* scaled half widths, rounded up */
-  float low, high;    /* uniform: bounds of the squared scaled distance */
+  int single;         /* 0: only the exact test is possible */
+  float box[3];       /* half widths, rounded up */
+  float low, high;    /* uniform: bounds of the squared distance */
+  float doubt_linear, doubt_constant;
   float skin, s_group;
-  double s_scale;     /* makes s single precision: scale, or its inverse for harmonic */
 } sphi_group;
 
-/* Error of a squared scaled distance near a scaled cutoff c. Coordinates are at most 1 and are
- * rounded to 2^-25, differences likewise: at most 4.2e-7 c + 6e-7 c^2; taken more than twice. */
-#define SPHI_DOUBT_LINEAR 1e-6f
+/* Error of a squared distance near a cutoff c, where no coordinate exceeds S = half width + reach
+ * and so each is rounded to S * 2^-25, and differences likewise: at most 4.2e-7 S c + 6e-7 c^2.
+ * Taken as more than twice that. */
+#define SPHI_DOUBT_LINEAR 1e-6
 #define SPHI_DOUBT_SQUARE 1.5e-6f
-#define SPHI_DOUBT_CONSTANT 1e-12f
+#define SPHI_DOUBT_CONSTANT 1e-12
 
 void sphi_group_set(sphi_group *g, const sphi_layout *l, int64_t begin, int64_t end);
 
@@ -57,7 +59,7 @@ typedef struct sphi_search {
   sphi_rows_fn rows;
 } sphi_search;
 
-/* For groups that single precision cannot serve (scale 0). */
+/* For groups that single precision cannot serve (single 0). */
 extern const sphi_search sphi_search_exact;
 extern const sphi_search sphi_search_portable;
 #if defined(__x86_64__)
