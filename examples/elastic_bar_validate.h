@@ -250,7 +250,7 @@ static void report_summed(void) {
   for (int k = 0; k < ENTRIES; ++k) {
     const published *p = &entries[k];
     bar_options o = options_of(p);
-    if (p->scheme != RKC || (p->n > 250 && p->dt != .236)) continue;
+    if (p->scheme != RKC || p->stages == 0 || (p->n > 250 && p->dt != .236)) continue;
     char keys[KEYS];
     o.form = SPH_STRESS_SUMMED;
     const outcome r = run_once(&o, snapshot);
