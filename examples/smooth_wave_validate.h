@@ -21,7 +21,7 @@ typedef struct figure {
 } figure;
 
 #define NOT_STABLE "RKC is not stable on the imaginary axis: inviscid waves grow"
-#define HELD_BY_VALUE "that program sets the held stress at each stage, this one its rate"
+#define HELD_BY_VALUE "shows how the end is held: by value at every stage it is .1141 and .1091"
 
 static const figure figures[] = {
     {SECOND_ORDER, RKC, 1.0, 20, .078, .080, 1e-3, NULL},
