@@ -140,9 +140,9 @@ enum { OC_NEEDS_F = 1, OC_NEEDS_MATRIX = 2, OC_AT_POINTS = 4, OC_TWO_OUTPUTS = 8
 
 typedef struct oc_case {
   const char *name;
-  int32_t form, width; /* of the operator; width: components of a field */
+  int32_t form, width;    /* of the operator; width: components of a field */
   int32_t one, dim, dim2; /* doubles a particle: one + dim * d + dim2 * d^2 */
-  const char *needs; /* letters of the arrays it reads: x h m r(ho) v p c s(igma) b (matrix) */
+  const char *needs;      /* letters of the arrays it reads: x h m r(ho) v p c s(igma) b (matrix) */
   uint32_t flags;
   sph_status (*run)(const oc_call *call, const struct oc_case *op);
   void (*ref)(const ref_system *s, const oc_particles *p, const struct oc_case *op, int64_t rows,

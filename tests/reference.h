@@ -185,8 +185,7 @@ static CHECK_UNUSED void ref_gradient(const ref_system *s, int32_t variant, int3
       if (variant == SPH_GRADIENT_DIFFERENCE) t = fj - fi;
       if (variant == SPH_GRADIENT_SUM) t = fj + fi;
       for (int a = 0; a < d; a++)
-        ref_add(o, (q->i * width + k) * d + a, vol * t * e[a],
-                vol * (fabs(fi) + fabs(fj)) * b[a]);
+        ref_add(o, (q->i * width + k) * d + a, vol * t * e[a], vol * (fabs(fi) + fabs(fj)) * b[a]);
     }
   }
 }
@@ -287,8 +286,8 @@ static CHECK_UNUSED void ref_stress(const ref_system *s, int32_t form, const ref
     }
     ref_gradient_of(s, q, e, b);
     for (int a = 0; a < d; a++) {
-      double t = mj * (ref_sym_times(d, si, a, e) / (ri * ri) +
-                       ref_sym_times(d, sj, a, e) / (rj * rj));
+      double t =
+          mj * (ref_sym_times(d, si, a, e) / (ri * ri) + ref_sym_times(d, sj, a, e) / (rj * rj));
       if (form == SPH_STRESS_DIFFERENCE)
         t = mj * (ref_sym_times(d, sj, a, e) - ref_sym_times(d, si, a, e)) / (ri * rj);
       double size = 0.0;

@@ -56,13 +56,11 @@ static void all_refuse(const bench *b, const oc_call *call, sph_status want, con
 
 /* sph_<operator>: every sentence starts with the name of the function. */
 static const char *name_of(const oc_case *op) {
-  static const char *const names[][2] = {{"density", "sph_density_summation"},
-                                         {"shepard", "sph_shepard_sum"},
-                                         {"matrix", "sph_gradient_matrix"},
-                                         {"stress", "sph_stress_divergence"},
-                                         {"pressure", "sph_pressure_gradient"},
-                                         {"monaghan", "sph_viscosity_monaghan"},
-                                         {"bulk", "sph_viscosity_bulk"}};
+  static const char *const names[][2] = {
+      {"density", "sph_density_summation"},  {"shepard", "sph_shepard_sum"},
+      {"matrix", "sph_gradient_matrix"},     {"stress", "sph_stress_divergence"},
+      {"pressure", "sph_pressure_gradient"}, {"monaghan", "sph_viscosity_monaghan"},
+      {"bulk", "sph_viscosity_bulk"}};
   for (size_t k = 0; k < sizeof names / sizeof *names; k++)
     if (strncmp(op->name, names[k][0], strlen(names[k][0])) == 0) return names[k][1];
   return op->name;
@@ -192,9 +190,9 @@ static void test_missing_arrays(void **state) {
   static const struct {
     char letter;
     const char *words;
-  } arrays[] = {{'x', "x is NULL"},      {'h', "h is NULL"},     {'m', "m is NULL"},
-                {'r', "rho is NULL"},    {'v', "v is NULL"},     {'c', "c is NULL"},
-                {'s', "sigma is NULL"},  {'b', "gradient_matrix"}};
+  } arrays[] = {{'x', "x is NULL"},     {'h', "h is NULL"},      {'m', "m is NULL"},
+                {'r', "rho is NULL"},   {'v', "v is NULL"},      {'c', "c is NULL"},
+                {'s', "sigma is NULL"}, {'b', "gradient_matrix"}};
   for (int32_t dim = 1; dim <= 3; dim++) {
     bench b = begin(dim);
     for (size_t m = 0; m < sizeof arrays / sizeof *arrays; m++)
@@ -203,14 +201,29 @@ static void test_missing_arrays(void **state) {
         sph_operands a = b.a;
         oc_call call = oc_call_of(b.list, b.kernel, &a, &set, out);
         switch (arrays[m].letter) {
-        case 'x': a.x = NULL; break;
-        case 'h': a.h = NULL; break;
-        case 'm': a.m = NULL; break;
-        case 'r': a.rho = NULL; break;
-        case 'v': a.v = NULL; break;
-        case 'c': a.c = NULL; break;
-        case 's': a.sigma = NULL; break;
-        default: a.gradient_matrix = NULL;
+        case 'x':
+          a.x = NULL;
+          break;
+        case 'h':
+          a.h = NULL;
+          break;
+        case 'm':
+          a.m = NULL;
+          break;
+        case 'r':
+          a.rho = NULL;
+          break;
+        case 'v':
+          a.v = NULL;
+          break;
+        case 'c':
+          a.c = NULL;
+          break;
+        case 's':
+          a.sigma = NULL;
+          break;
+        default:
+          a.gradient_matrix = NULL;
         }
         mark_outputs();
         if (!strchr(op->needs, arrays[m].letter)) {
@@ -436,7 +449,8 @@ static void test_operands_from_set(void **state) {
   sph_context_destroy(ctx);
 }
 
-/* --- memory ------------------------------------------------------------------------------------ */
+/* --- memory ------------------------------------------------------------------------------------
+ */
 
 /* One operator on a fresh list, so that every buffer is still to come. */
 static sph_status memory_scenario(sph_context *ctx, void *user) {

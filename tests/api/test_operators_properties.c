@@ -41,7 +41,8 @@ static void fill_space(void) {
   for (int64_t i = 0; i < set.n; i++) set.m[i] = set.rho[i] * (0.9 + 0.2 * set.m[i] / 1.6);
 }
 
-/* --- conservation ------------------------------------------------------------------------------ */
+/* --- conservation ------------------------------------------------------------------------------
+ */
 
 static void expect_no_force(const double *f, int turning, const char *what, int32_t form) {
   int32_t d = set.dim;
@@ -51,8 +52,8 @@ static void expect_no_force(const double *f, int turning, const char *what, int3
       sum[a] += set.m[i] * f[i * d + a];
       size += fabs(set.m[i] * f[i * d + a]);
       for (int32_t b = 0; b < a; b++)
-        torque[a + b - 1] += set.m[i] * (set.x[i * d + b] * f[i * d + a] -
-                                         set.x[i * d + a] * f[i * d + b]);
+        torque[a + b - 1] +=
+            set.m[i] * (set.x[i * d + b] * f[i * d + a] - set.x[i * d + a] * f[i * d + b]);
     }
   assert_true(size > 0.0);
   for (int32_t a = 0; a < d; a++)
@@ -90,7 +91,8 @@ static void test_momentum(void **state) {
       }
 }
 
-/* Two particles pull on each other with opposite forces to the last bit when the masses are equal. */
+/* Two particles pull on each other with opposite forces to the last bit when the masses are equal.
+ */
 static void test_antisymmetric_bits(void **state) {
   (void)state;
   for (int32_t isa = SPH_ISA_PORTABLE; isa <= SPH_ISA_AVX512; isa++) {
@@ -118,7 +120,8 @@ static void test_antisymmetric_bits(void **state) {
           if (form == 0) check_ok(sph_viscosity_monaghan(list, kernel, &a, 1.0, 2.0, out));
           if (form == 1) check_ok(sph_pressure_gradient(list, kernel, &a, SPH_PRESSURE_MASS, out));
           if (form == 2) check_ok(sph_stress_divergence(list, kernel, &a, SPH_STRESS_SUMMED, out));
-          if (form == 3) check_ok(sph_pressure_gradient(list, kernel, &a, SPH_PRESSURE_NUMBER, out));
+          if (form == 3)
+            check_ok(sph_pressure_gradient(list, kernel, &a, SPH_PRESSURE_NUMBER, out));
           if (form == 4)
             check_ok(sph_stress_divergence(list, kernel, &a, SPH_STRESS_CONSERVATIVE, out));
           for (int k = 0; k < dim; k++) {
@@ -169,7 +172,8 @@ static void test_viscosity_dissipates(void **state) {
   }
 }
 
-/* --- exactness --------------------------------------------------------------------------------- */
+/* --- exactness ---------------------------------------------------------------------------------
+ */
 
 /* Difference forms with the matrix are exact for linear fields, in disorder and at free edges. */
 static void test_linear(void **state) {
@@ -268,7 +272,8 @@ static void test_expansion(void **state) {
   }
 }
 
-/* --- invariance -------------------------------------------------------------------------------- */
+/* --- invariance --------------------------------------------------------------------------------
+ */
 
 /* Velocities on a grid of 2^-20, so that the shift is exact and the bits must stay. */
 static void test_galilean(void **state) {
@@ -345,7 +350,8 @@ static void test_methods(void **state) {
   }
 }
 
-/* --- odd places -------------------------------------------------------------------------------- */
+/* --- odd places --------------------------------------------------------------------------------
+ */
 
 static void expect_finite(int64_t n, const oc_case *op) {
   for (int64_t k = 0; k < n; k++)
@@ -465,9 +471,11 @@ static void test_fallbacks(void **state) {
     }
 }
 
-/* --- order ------------------------------------------------------------------------------------- */
+/* --- order -------------------------------------------------------------------------------------
+ */
 
-/* Error of the corrected gradient of sin(x) on a periodic lattice of n particles, h = 1.5 spacings. */
+/* Error of the corrected gradient of sin(x) on a periodic lattice of n particles, h = 1.5 spacings.
+ */
 static double sine_error(int64_t n) {
   const double period = 2.0 * acos(-1.0), spacing = period / (double)n;
   sph_context *ctx = oc_context(SPH_ISA_AUTO, 1);
@@ -510,20 +518,13 @@ static void test_order(void **state) {
 }
 
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(test_momentum),
-    cmocka_unit_test(test_antisymmetric_bits),
-    cmocka_unit_test(test_energy),
-    cmocka_unit_test(test_viscosity_dissipates),
-    cmocka_unit_test(test_linear),
-    cmocka_unit_test(test_constants),
-    cmocka_unit_test(test_expansion),
-    cmocka_unit_test(test_galilean),
-    cmocka_unit_test(test_axes),
-    cmocka_unit_test(test_methods),
-    cmocka_unit_test(test_coincident),
-    cmocka_unit_test(test_far_particle),
-    cmocka_unit_test(test_lonely),
-    cmocka_unit_test(test_fallbacks),
+    cmocka_unit_test(test_momentum),   cmocka_unit_test(test_antisymmetric_bits),
+    cmocka_unit_test(test_energy),     cmocka_unit_test(test_viscosity_dissipates),
+    cmocka_unit_test(test_linear),     cmocka_unit_test(test_constants),
+    cmocka_unit_test(test_expansion),  cmocka_unit_test(test_galilean),
+    cmocka_unit_test(test_axes),       cmocka_unit_test(test_methods),
+    cmocka_unit_test(test_coincident), cmocka_unit_test(test_far_particle),
+    cmocka_unit_test(test_lonely),     cmocka_unit_test(test_fallbacks),
     cmocka_unit_test(test_order),
 };
 SPH_TEST_MAIN(tests)

@@ -1,5 +1,5 @@
-/* Operators against plain references and by hand: every form, dimension, kernel, rule for unequal h,
- * instruction set and number of threads. */
+/* Operators against plain references and by hand: every form, dimension, kernel, rule for unequal
+ * h, instruction set and number of threads. */
 #include "../operator_cases.h"
 
 static oc_particles set;
@@ -360,7 +360,8 @@ static void test_three_particles(void **state) {
   (void)state;
   const double x[6] = {0, 0, 1, 0, 0, 1}, v[6] = {0, 0, 2, 4, 6, -2};
   const double sigma[9] = {0, 0, 0, 1, 2, 3, 4, 5, 6}, alpha = 15.0 / (7.0 * acos(-1.0));
-  const double d = 2.0 - sqrt(2.0), w = alpha * d * d * d / 6.0, g = 0.5 * alpha * d * d / sqrt(2.0);
+  const double d = 2.0 - sqrt(2.0), w = alpha * d * d * d / 6.0,
+               g = 0.5 * alpha * d * d / sqrt(2.0);
   sph_context *ctx = oc_context(SPH_ISA_AUTO, 1);
   sph_kernel *kernel = oc_kernel(ctx, SPH_KERNEL_CUBIC_SPLINE, 2);
   sph_neighbors *list = NULL;
@@ -400,7 +401,8 @@ static void test_three_particles(void **state) {
   sph_context_destroy(ctx);
 }
 
-/* --- the same bits ----------------------------------------------------------------------------- */
+/* --- the same bits -----------------------------------------------------------------------------
+ */
 
 /* A host's loop: pieces of 37, the last first, worker numbers in turn. */
 static void odd_loop(void *user, int64_t count, int64_t grain, sph_loop_fn body, void *job) {
@@ -466,11 +468,17 @@ static void test_same_bits(void **state) {
 }
 
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(test_two_particles),    cmocka_unit_test(test_three_particles),
-    cmocka_unit_test(test_every_kernel),     cmocka_unit_test(test_every_rule),
-    cmocka_unit_test(test_every_uniformity), cmocka_unit_test(test_periodic),
-    cmocka_unit_test(test_rows),             cmocka_unit_test(test_uniform_values),
-    cmocka_unit_test(test_host_kernel),      cmocka_unit_test(test_gradient_matrix),
-    cmocka_unit_test(test_same_bits),        cmocka_unit_test(test_skin),
+    cmocka_unit_test(test_two_particles),
+    cmocka_unit_test(test_three_particles),
+    cmocka_unit_test(test_every_kernel),
+    cmocka_unit_test(test_every_rule),
+    cmocka_unit_test(test_every_uniformity),
+    cmocka_unit_test(test_periodic),
+    cmocka_unit_test(test_rows),
+    cmocka_unit_test(test_uniform_values),
+    cmocka_unit_test(test_host_kernel),
+    cmocka_unit_test(test_gradient_matrix),
+    cmocka_unit_test(test_same_bits),
+    cmocka_unit_test(test_skin),
 };
 SPH_TEST_MAIN(tests)
