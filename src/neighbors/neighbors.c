@@ -94,6 +94,8 @@ static void free_buffers(sph_neighbors *list) {
                         &p->scratch.record, &p->scratch.part,      &p->b_now,
                         &p->b_offsets,      &p->b_indices};
   for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) sphi_buffer_free(ctx, all[i]);
+  for (size_t i = 0; i < sizeof list->scratch / sizeof list->scratch[0]; i++)
+    sphi_buffer_free(ctx, &list->scratch[i]);
   sphi_layout_free(ctx, &p->layout[0]);
   sphi_layout_free(ctx, &p->layout[1]);
   sphi_pairs_free(ctx, &p->pairs);

@@ -87,6 +87,30 @@ static inline void copy_indices(uint32_t *to, const uint32_t *from) {
   store_indices(to, load_indices(from));
 }
 
+static inline int64_t put_candidates(const sphi_candidates *c, int64_t at, int dim, int uniform,
+                                     vf x, vf y, vf z, vf s, uint32_t first, uint32_t keep) {
+  put_floats(c->x[0] + at, x, keep);
+  if (dim > 1) put_floats(c->x[1] + at, y, keep);
+  if (dim > 2) put_floats(c->x[2] + at, z, keep);
+  if (!uniform) put_floats(c->s + at, s, keep);
+  put_counted(c->index + at, first, keep);
+  return __builtin_popcount(keep);
+}
+
+static inline void emit(uint32_t **out, uint64_t *waiting, const uint32_t *index, int64_t q,
+                        uint32_t keep) {
+  (void)waiting;
+  *out = put_indices(*out, index + q, keep);
+}
+
+static inline void emit_rest(uint32_t **out, uint64_t *waiting, const uint32_t *index,
+                             int64_t count) {
+  (void)out;
+  (void)waiting;
+  (void)index;
+  (void)count;
+}
+
 #include "search.inc"
 #else
 typedef int sphi_neighbors_avx2_unused;
