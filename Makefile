@@ -22,9 +22,12 @@ WERROR ?= 0
 # Programs that live in examples/ and understand the argument `validate`.
 EXAMPLE_CASES ?= elastic_bar smooth_wave
 
+# The C++ compiler beside the C one (gcc-12: g++-12), else any.
 ifeq ($(origin CXX),default)
-CXX := $(shell command -v g++ || command -v clang++ || echo g++)
+CXX := $(shell command -v $(subst gcc,g++,$(subst clang,clang++,$(firstword $(CC)))) | \
+  grep '++' || command -v g++ || command -v clang++ || echo g++)
 endif
+HAVE_CXX := $(shell command -v $(firstword $(CXX)))
 
 Q := $(if $(filter 1,$(V)),,@)
 say = $(if $(filter 1,$(V)),,@printf '  %-6s %s\n' '$(1)' '$(2)')
@@ -84,11 +87,12 @@ endif
 MAP := $(if $(FOLDERS),$(BUILD)/libsph.map,$(or $(wildcard lib/libsph.map),$(BUILD)/libsph.map))
 OBJ := $(SRC:%.c=$(BUILD)/%.o)
 
-pick = $(if $(TESTS),$(filter $(foreach t,$(TESTS),%/test_$(t).c),$(1)),$(1))
+pick = $(if $(TESTS),$(filter $(foreach t,$(TESTS),%/test_$(t).c %/test_$(t).cpp),$(1)),$(1))
 UNIT := $(call pick,$(sort $(wildcard tests/unit/test_*.c)))
 API := $(call pick,$(sort $(wildcard tests/api/test_*.c)))
+API_CXX := $(call pick,$(sort $(wildcard tests/api/test_*.cpp)))
 UNIT_BIN := $(UNIT:%.c=$(BUILD)/%)
-API_BIN := $(API:%.c=$(BUILD)/%)
+API_BIN := $(API:%.c=$(BUILD)/%) $(if $(HAVE_CXX),$(API_CXX:%.cpp=$(BUILD)/%))
 BENCH_BIN := $(patsubst %.c,$(BUILD)/%,$(sort $(wildcard tests/bench/*.c)))
 EXAMPLE_BIN := $(patsubst %.c,$(BUILD)/%,$(sort $(wildcard examples/*.c)))
 CASE_BIN := $(patsubst %.c,$(BUILD)/%,$(sort $(wildcard tests/validation/*.c) \
@@ -147,6 +151,7 @@ $(SO_LINKS): $(SO)
 
 # --- programs
 HOST = $(BASE) $(STRICT) -MMD -MP -MT $@ -MF $@.d
+HOST_CXX = $(CFLAGS) -std=c++11 -pthread -Iinclude $(CPPFLAGS) $(STRICT) -MMD -MP -MT $@ -MF $@.d
 LINK_SO = -L$(OUT) -Wl,-rpath,$(abspath $(OUT)) -lsph $(LIBS)
 
 $(BUILD)/tests/unit/%: tests/unit/%.c $(LIB_A) $(BUILD)/flags
@@ -158,6 +163,11 @@ $(BUILD)/tests/api/%: tests/api/%.c $(SO) $(SO_LINKS) $(BUILD)/flags
 	@mkdir -p $(@D)
 	$(call say,TEST,$<)
 	$(Q)$(CC) $(HOST) $(TEST_CPP) -Itests $(LDFLAGS) $< -o $@ $(TEST_LIBS) $(LINK_SO)
+
+$(BUILD)/tests/api/%: tests/api/%.cpp $(SO) $(SO_LINKS) $(BUILD)/flags
+	@mkdir -p $(@D)
+	$(call say,TEST,$<)
+	$(Q)$(CXX) $(HOST_CXX) $(LDFLAGS) $< -o $@ $(LINK_SO)
 
 $(BUILD)/tests/%: tests/%.c $(SO) $(SO_LINKS) $(BUILD)/flags
 	@mkdir -p $(@D)
@@ -177,6 +187,7 @@ demo: $(BUILD)/examples/elastic_bar
 	cd $(BUILD)/demo && $(abspath $<)
 
 check: $(UNIT_BIN) $(API_BIN)
+	$(if $(HAVE_CXX),,@echo '$(CXX) is missing, C++ hosts are left out: install the Debian package g++')
 	@JOBS='$(JOBS)' tests/tools/run_tests.sh '$(TEST_ARGS)' $^
 
 check-long: TEST_ARGS := long
@@ -238,7 +249,7 @@ check-install: lib
 	@CC='$(CC)' CXX='$(CXX)' MAKE='$(MAKE)' BUILD='$(BUILD)' tests/tools/check_install.sh
 
 # The headers under lib/abi are a record: never touched.
-FORMATTED = $(shell git ls-files include src tests examples | grep -E '\.(c|h|inc)$$')
+FORMATTED = $(shell git ls-files include src tests examples | grep -E '\.(c|cpp|h|inc)$$')
 format:
 	$(call need,clang-format,clang-format)
 	clang-format -i $(FORMATTED)
