@@ -471,6 +471,41 @@ static void test_fallbacks(void **state) {
     }
 }
 
+/* Neighbours on two axes with volumes 1 and e: B_0 is proportional to diag(1, e), of condition
+ * number e + 1/e; beyond 1000 the identity is stored. */
+static void test_condition_limit(void **state) {
+  (void)state;
+  const double x[6] = {0, 0, 1, 0, 0, 1};
+  sph_context *ctx = oc_context(SPH_ISA_AUTO, 1);
+  sph_kernel *kernel = oc_kernel(ctx, SPH_KERNEL_CUBIC_SPLINE, 2);
+  sph_neighbors *list = NULL;
+  check_ok(sph_neighbors_create(ctx, NULL, &list));
+  check_ok(sph_neighbors_build_arrays(list, 2, 3, x, NULL, 1.0));
+  for (int beyond = 0; beyond < 2; beyond++) {
+    const double m[3] = {1.0, 1.0, beyond ? 1.0 / 1000.5 : 1.0 / 999.5};
+    double inverse[12], matrix[12], leg = -sph_kernel_dwdr(kernel, 1.0, 1.0);
+    sph_operands a;
+    sph_operands_init(&a);
+    a.dim = 2;
+    a.n = 3;
+    a.rows = 1;
+    a.x = x;
+    a.m = m;
+    a.h0 = a.rho0 = 1.0;
+    int64_t fallbacks = -1;
+    check_ok(sph_gradient_matrix(list, kernel, &a, inverse, matrix, &fallbacks));
+    assert_int_equal(fallbacks, beyond);
+    check_rel(matrix[0], leg, 1e-14);
+    check_rel(matrix[3], m[2] * leg, 1e-14);
+    check_rel(inverse[0], beyond ? 1.0 : 1.0 / leg, 1e-14);
+    check_rel(inverse[3], beyond ? 1.0 : 1.0 / (m[2] * leg), 1e-14);
+    assert_true(inverse[1] == 0.0 && inverse[2] == 0.0);
+  }
+  sph_neighbors_destroy(list);
+  sph_kernel_destroy(kernel);
+  sph_context_destroy(ctx);
+}
+
 /* --- order -------------------------------------------------------------------------------------
  */
 
@@ -518,13 +553,21 @@ static void test_order(void **state) {
 }
 
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(test_momentum),   cmocka_unit_test(test_antisymmetric_bits),
-    cmocka_unit_test(test_energy),     cmocka_unit_test(test_viscosity_dissipates),
-    cmocka_unit_test(test_linear),     cmocka_unit_test(test_constants),
-    cmocka_unit_test(test_expansion),  cmocka_unit_test(test_galilean),
-    cmocka_unit_test(test_axes),       cmocka_unit_test(test_methods),
-    cmocka_unit_test(test_coincident), cmocka_unit_test(test_far_particle),
-    cmocka_unit_test(test_lonely),     cmocka_unit_test(test_fallbacks),
+    cmocka_unit_test(test_momentum),
+    cmocka_unit_test(test_antisymmetric_bits),
+    cmocka_unit_test(test_energy),
+    cmocka_unit_test(test_viscosity_dissipates),
+    cmocka_unit_test(test_linear),
+    cmocka_unit_test(test_constants),
+    cmocka_unit_test(test_expansion),
+    cmocka_unit_test(test_galilean),
+    cmocka_unit_test(test_axes),
+    cmocka_unit_test(test_methods),
+    cmocka_unit_test(test_coincident),
+    cmocka_unit_test(test_far_particle),
+    cmocka_unit_test(test_lonely),
+    cmocka_unit_test(test_fallbacks),
+    cmocka_unit_test(test_condition_limit),
     cmocka_unit_test(test_order),
 };
 SPH_TEST_MAIN(tests)
