@@ -12,13 +12,18 @@
 
 #include <string.h>
 
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
 enum {
   CHUNK = 1024,              /* rows of a chunk, as long as slots suffice */
   SLOTS_EACH = 4,            /* slots a worker: for balance */
   FIRST_CANDIDATES = 4096,
   ARRAYS = 8,                /* of candidates: see sphi_candidates */
   SKEW = 80,                 /* so that candidate arrays do not start at the same cache sets */
-  SAMPLES = 96
+  SAMPLES = 96,
+  LARGE_LIST = 1 << 25       /* bytes; larger than what caches keep */
 };
 
 static const int64_t first_slot = (int64_t)1 << 17; /* pairs */
@@ -84,14 +89,31 @@ static int64_t group_end(const sphi_layout *l, int64_t row, int64_t end, uint32_
   return stop < end ? stop : end;
 }
 
-/* Next candidate ranges of a group; 0 when there are no more. */
-static int next_ranges(const sphi_group *g, uint32_t home, uint32_t *cursor, sphi_range *out) {
+/* The candidate ranges of a group, some at a time. */
+typedef struct candidate_walk {
+  const sphi_group *g;
+  uint32_t home;
+  int done;
+  sphi_walk tree;
+} candidate_walk;
+
+static void begin_walk(candidate_walk *w, const sphi_search *search, const sphi_group *g,
+                       uint32_t home) {
   const sphi_layout *l = g->l;
+  w->g = g;
+  w->home = home;
+  w->done = 0;
   if (l->method == SPH_NEIGHBORS_TREE)
-    return sphi_tree_ranges(&l->tree, &l->rule, g->center, g->half, g->s, -1.0, cursor, out);
-  if ((*cursor)++ > 0) return 0;
+    sphi_walk_begin(&w->tree, &l->tree, &l->rule, search->boxes, g->center, g->half, g->s, -1.0);
+}
+
+/* 0 when there are no more. */
+static int next_ranges(candidate_walk *w, sphi_range *out) {
+  const sphi_layout *l = w->g->l;
+  if (l->method == SPH_NEIGHBORS_TREE) return sphi_walk_ranges(&w->tree, out);
+  if (w->done++ > 0) return 0;
   if (l->method != SPH_NEIGHBORS_ALL_PAIRS)
-    return sphi_cells_ranges(&l->cells, l->dim, home, out);
+    return sphi_cells_ranges(&l->cells, l->dim, w->home, out);
   out[0] = (sphi_range){0, (uint32_t)l->n};
   return 1;
 }
@@ -102,14 +124,15 @@ static int64_t length_of(const sphi_range *r, int count) {
   return sum;
 }
 
-/* Gather the candidates of a group: 0, or the capacity that would be needed so far. */
-static int64_t gather(const sphi_search *search, const sphi_group *g, uint32_t home,
-                      sphi_candidates *c) {
+/* Gather the candidates of a group, walking with the best loops there are: 0, or the capacity that would be needed so far. */
+static int64_t gather(const sphi_search *best, const sphi_search *search, const sphi_group *g,
+                      uint32_t home, sphi_candidates *c) {
   sphi_range ranges[SPHI_MAX_RANGES];
-  uint32_t cursor = 0;
+  candidate_walk walk;
   int n;
   c->count = 0;
-  while ((n = next_ranges(g, home, &cursor, ranges)) > 0) {
+  begin_walk(&walk, best, g, home);
+  while ((n = next_ranges(&walk, ranges)) > 0) {
     int64_t most = c->count + length_of(ranges, n);
     if (most > c->capacity) return most;
     search->gather(g, ranges, n, c);
@@ -127,7 +150,7 @@ static void search_chunk(const fill *f, slot *s, uint32_t *out, int32_t worker) 
     int64_t end = group_end(f->l, s->done, s->end, &home), done;
     sphi_group_set(&g, f->l, s->done, end);
     const sphi_search *search = g.single ? f->search : &sphi_search_exact;
-    s->need_candidates = gather(search, &g, home, &c);
+    s->need_candidates = gather(f->search, search, &g, home, &c);
     if (s->need_candidates > 0) return;
     done = search->rows(&g, &c, out, f->p->slot_capacity, &s->count, f->l->start);
     s->done += done;
@@ -137,9 +160,33 @@ static void search_chunk(const fill *f, slot *s, uint32_t *out, int32_t worker) 
   }
 }
 
+/* Past the caches: a list this long is not found there again, and so is not read before it is
+ * overwritten. */
+static void copy_past_caches(uint32_t *to, const uint32_t *from, int64_t count) {
+#if defined(__SSE2__)
+  int64_t k = 0;
+  for (; k < count && ((uintptr_t)(to + k) & 63u) != 0; k++) to[k] = from[k];
+  for (; k + 16 <= count; k += 16) {
+    const __m128i *p = (const __m128i *)(const void *)(from + k);
+    __m128i a = _mm_loadu_si128(p), b = _mm_loadu_si128(p + 1);
+    __m128i c = _mm_loadu_si128(p + 2), d = _mm_loadu_si128(p + 3);
+    __m128i *q = (__m128i *)(void *)(to + k);
+    _mm_stream_si128(q, a);
+    _mm_stream_si128(q + 1, b);
+    _mm_stream_si128(q + 2, c);
+    _mm_stream_si128(q + 3, d);
+  }
+  for (; k < count; k++) to[k] = from[k];
+  _mm_sfence();
+#else
+  memcpy(to, from, (size_t)count * sizeof *to);
+#endif
+}
+
 /* Put a finished chunk in its place. */
 static void place_chunk(const fill *f, slot *s, const uint32_t *from) {
-  memcpy(f->list->pair + s->place, from, (size_t)s->ready_count * sizeof *from);
+  if (f->p->b_pair.bytes > LARGE_LIST) copy_past_caches(f->list->pair + s->place, from, s->ready_count);
+  else memcpy(f->list->pair + s->place, from, (size_t)s->ready_count * sizeof *from);
   for (int64_t i = s->ready; i < s->ready_end; i++) f->l->start[i] += s->place;
   s->place = -1;
 }
@@ -332,15 +379,6 @@ static void finish(fill *f) {
   memset(f->list->pair + f->total, 0, SPHI_ROW_PADDING * sizeof(uint32_t));
 }
 
-static const sphi_search *choose_search(sph_context *ctx) {
-#if defined(__x86_64__)
-  if (sphi_isa(ctx) == SPH_ISA_AVX512) return &sphi_search_avx512;
-  if (sphi_isa(ctx) == SPH_ISA_AVX2) return &sphi_search_avx2;
-#endif
-  (void)ctx;
-  return &sphi_search_portable;
-}
-
 static sph_status set_up(fill *f) {
   int64_t workers = sphi_workers(f->ctx);
   f->slot_count = workers > 1 ? workers * SLOTS_EACH : 1;
@@ -360,7 +398,7 @@ static sph_status set_up(fill *f) {
 sph_status sphi_fill(sph_neighbors *list, sphi_layout *l) {
   sph_context *ctx = list->base.ctx;
   fill f = {.list = list, .ctx = ctx, .l = l, .p = &list->priv->pairs, .chunk = CHUNK,
-            .search = choose_search(ctx)};
+            .search = sphi_search_of(ctx)};
   sph_status s = set_up(&f);
   if (s == SPH_OK && l->n > 0) s = begin_pairs(&f);
   if (s == SPH_OK && f.p->b_pair.ptr == NULL) s = grow_pairs(&f, 0, 0);
@@ -378,11 +416,12 @@ static void restore_body(void *job, int64_t begin, int64_t end, int32_t worker) 
   (void)worker;
   for (int64_t i = begin; i < end; i++) {
     sphi_group g;
-    uint32_t cursor = 0;
+    candidate_walk walk;
     int64_t at = f->l->start[i];
     int n;
     sphi_group_set(&g, f->l, i, i + 1);
-    while ((n = next_ranges(&g, home_of(f->l, i), &cursor, ranges)) > 0)
+    begin_walk(&walk, f->search, &g, home_of(f->l, i));
+    while ((n = next_ranges(&walk, ranges)) > 0)
       for (int k = 0; k < n; k++)
         for (uint32_t j = ranges[k].begin; j < ranges[k].end; j++)
           if (sphi_is_pair(f->l, i, j)) f->list->pair[at++] = j;
@@ -390,7 +429,8 @@ static void restore_body(void *job, int64_t begin, int64_t end, int32_t worker) 
 }
 
 void sphi_fill_again(sph_neighbors *list, sphi_layout *l) {
-  fill f = {.list = list, .ctx = list->base.ctx, .l = l, .total = l->start[l->n]};
+  fill f = {.list = list, .ctx = list->base.ctx, .l = l, .total = l->start[l->n],
+            .search = sphi_search_of(list->base.ctx)};
   sphi_parallel(f.ctx, l->n, SPHI_BLOCK, restore_body, &f);
   finish(&f);
 }

@@ -11,6 +11,7 @@
 
 enum {
   SPHI_POSITION_PADDING = 16, /* readable doubles after the last coordinate */
+  SPHI_LEVELS = 12,           /* of the tree; 8^11 leaves are more than particles */
   SPHI_LEAF = 16,             /* most particles in a leaf of the tree */
   SPHI_BLOCK = 64,            /* most rows of a group that is cut from something larger */
   SPHI_MAX_RANGES = 64        /* candidate ranges handed out at a time; at least 27 */
@@ -45,19 +46,16 @@ typedef struct sphi_cells {
   uint32_t *first;     /* total + 1: first sweep position of a cell */
 } sphi_cells;
 
-/* Nodes in preorder: the first child follows its parent, `skip` is the next node that is not a
- * descendant. Boxes are centre and half width, so that distances on a circle are simple. */
-typedef struct sphi_node {
-  double center[3], half[3];
-  double s;            /* bound of the s of its particles, see sphi_rule_bound() */
-  uint32_t begin, end; /* particles */
-  uint32_t skip;
-  uint32_t leaf;
-} sphi_node;
+/* Eight boxes, as centre and half width, so that distances on a circle are simple. */
+typedef struct sphi_boxes {
+  double center[3][8], half[3][8];
+  double s[8]; /* bound of the s of their particles, see sphi_rule_bound() */
+} sphi_boxes;
 
 typedef struct sphi_tree {
-  sphi_node *nodes;
-  uint32_t count;
+  sphi_boxes *level[SPHI_LEVELS]; /* 0: leaves; box k of a level holds eight of the one below */
+  uint32_t boxes[SPHI_LEVELS];    /* how many there are */
+  int levels;
   uint32_t *leaf; /* leaf_count + 1: first sweep position of each leaf */
   uint32_t leaf_count;
 } sphi_tree;
@@ -146,10 +144,28 @@ int sphi_cells_index(const sphi_cells *c, int axis, double x);
 sph_status sphi_tree_build(sph_context *ctx, sphi_layout *l, const sphi_input *in,
                            sphi_scratch *tmp);
 uint32_t sphi_tree_leaf_at(const sphi_tree *t, uint32_t position);
-/* Continue a walk at node *cursor (0 to begin): ranges of leaves within reach of the box. */
-int sphi_tree_ranges(const sphi_tree *t, const sphi_rule *rule, const double center[3],
-                     const double half[3], double s, double radius, uint32_t *cursor,
-                     sphi_range *out);
+#define SPHI_REACH_MARGIN 1.000001 /* for rounding of boxes and distances */
+
+/* A walk over the leaves within reach of a box: ranges until there are none. A radius >= 0 is
+ * the reach; else it follows from s and the rule. */
+typedef struct sphi_walk sphi_walk;
+/* Lanes of eight boxes that are within reach: bits 0 to 7. */
+typedef uint32_t (*sphi_boxes_fn)(const sphi_walk *w, const sphi_boxes *b);
+
+struct sphi_walk {
+  const sphi_tree *tree;
+  sphi_boxes_fn near;
+  const sphi_rule *rule;
+  double center[3], half[3], s;
+  double limit; /* square of the reach; negative: by the rule */
+  int at; /* level */
+  uint32_t block[SPHI_LEVELS], mask[SPHI_LEVELS];
+};
+
+void sphi_walk_begin(sphi_walk *w, const sphi_tree *t, const sphi_rule *rule,
+                     sphi_boxes_fn near, const double center[3], const double half[3], double s,
+                     double radius);
+int sphi_walk_ranges(sphi_walk *w, sphi_range *out);
 
 /* --- the pair test: the same operations in the same order wherever pairs are decided --- */
 

@@ -9,6 +9,7 @@
 
 #define W 8
 #define ALL 0xffu
+#define VD 4
 #define SEARCH sphi_search_avx2
 #define ROWS_AT_ONCE 2
 typedef __m256 vf;
@@ -110,6 +111,8 @@ static inline void emit_rest(uint32_t **out, uint64_t *waiting, const uint32_t *
   (void)index;
   (void)count;
 }
+
+#define vd_bits(mask) ((uint32_t)_mm256_movemask_pd((__m256d)(mask)))
 
 #include "search.inc"
 #else

@@ -11,6 +11,7 @@
 
 #define W 16
 #define ALL 0xffffu
+#define VD 8
 #define SEARCH sphi_search_avx512
 #define ROWS_AT_ONCE 4
 typedef __m512 vf;
@@ -99,6 +100,8 @@ static inline void emit_rest(uint32_t **out, uint64_t *waiting, const uint32_t *
   (void)index;
   (void)count;
 }
+
+#define vd_bits(mask) ((uint32_t)_mm512_movepi64_mask((__m512i)(mask)))
 
 #include "search.inc"
 #else

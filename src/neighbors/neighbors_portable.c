@@ -7,6 +7,7 @@
 #define W 16
 #define ALL 0xffffu
 #define ROWS_AT_ONCE 1
+#define VD 2
 #define SEARCH sphi_search_portable
 typedef float v4 __attribute__((vector_size(16)));
 typedef int32_t i4 __attribute__((vector_size(16)));
@@ -144,5 +145,7 @@ static inline void emit_rest(uint32_t **out, uint64_t *waiting, const uint32_t *
     *p++ = index[(count - 1) / 64 * 64 + __builtin_ctzll(bits)];
   *out = p;
 }
+
+#define vd_bits(mask) ((uint32_t)(((mask)[0] & 1) | ((mask)[1] & 2)))
 
 #include "search.inc"

@@ -1,5 +1,5 @@
 /* The pairs in the host's order, and queries at points. */
-#include "layout.h"
+#include "search.h"
 
 #include <float.h>
 #include <math.h>
@@ -232,10 +232,12 @@ static void query_tree(query *q, double reach) {
   const double zero[3] = {0.0, 0.0, 0.0};
   double at[3] = {0.0, 0.0, 0.0};
   sphi_range ranges[SPHI_MAX_RANGES];
-  uint32_t cursor = 0;
+  sphi_walk walk;
   int n;
   for (int a = 0; a < l->dim; a++) at[a] = q->point[a];
-  while ((n = sphi_tree_ranges(&l->tree, &l->rule, at, zero, 0.0, reach, &cursor, ranges)) > 0)
+  sphi_boxes_fn near = sphi_search_of(q->list->base.ctx)->boxes;
+  sphi_walk_begin(&walk, &l->tree, &l->rule, near, at, zero, 0.0, reach);
+  while ((n = sphi_walk_ranges(&walk, ranges)) > 0)
     for (int k = 0; k < n; k++) test_range(q, ranges[k]);
 }
 

@@ -106,4 +106,13 @@ static int64_t rows_exact(const sphi_group *g, sphi_candidates *c, uint32_t *out
   return g->end - g->begin;
 }
 
-const sphi_search sphi_search_exact = {gather_exact, rows_exact};
+const sphi_search sphi_search_exact = {gather_exact, rows_exact, NULL};
+
+const sphi_search *sphi_search_of(const sph_context *ctx) {
+#if defined(__x86_64__)
+  if (sphi_isa(ctx) == SPH_ISA_AVX512) return &sphi_search_avx512;
+  if (sphi_isa(ctx) == SPH_ISA_AVX2) return &sphi_search_avx2;
+#endif
+  (void)ctx;
+  return &sphi_search_portable;
+}

@@ -57,7 +57,11 @@ typedef int64_t (*sphi_rows_fn)(const sphi_group *g, sphi_candidates *c, uint32_
 typedef struct sphi_search {
   sphi_gather_fn gather;
   sphi_rows_fn rows;
+  sphi_boxes_fn boxes;
 } sphi_search;
+
+/* The loops for the instruction set of a context. */
+const sphi_search *sphi_search_of(const sph_context *ctx);
 
 /* For groups that single precision cannot serve (single 0). */
 extern const sphi_search sphi_search_exact;

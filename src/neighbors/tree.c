@@ -1,9 +1,11 @@
-/* A k-d tree with small leaves, for particles of very unequal smoothing length.
+/* A tree of small leaves, for particles of very unequal smoothing length.
  *
- * The top of the tree is cut from a sample, so that every particle can be sent to its subtree
- * in one parallel pass; each subtree then fits a cache and is halved at medians until a leaf
- * holds at most SPHI_LEAF particles. Nothing depends on the number of threads. Boxes are those
- * of the particles themselves, so the cuts decide about speed only: a walk is right for any. */
+ * Leaves are those of a k-d tree. Its top is cut from a sample, so that every particle can be
+ * sent to its subtree in one parallel pass; each subtree then fits a cache and is halved at
+ * medians until a leaf holds at most SPHI_LEAF particles. Above the leaves, in their order, each
+ * level has one box for eight boxes of the level below: a walk tests eight at a time and needs
+ * no links. Nothing depends on the number of threads. Boxes are those of the particles
+ * themselves, so the cuts decide about speed only: a walk is right for any. */
 #include "layout.h"
 
 #include <math.h>
@@ -27,7 +29,6 @@ typedef struct top {
   int32_t axis[1 << MAX_LEVELS];
   double cut[1 << MAX_LEVELS];
   uint32_t begin[(1 << MAX_LEVELS) + 1]; /* sweep positions */
-  uint32_t node[1 << MAX_LEVELS];        /* first node */
   uint32_t leaf[1 << MAX_LEVELS];        /* first leaf */
 } top;
 
@@ -40,6 +41,13 @@ typedef struct tree_job {
   uint16_t *key;
   int64_t parts;
 } tree_job;
+
+typedef struct level_job {
+  const sphi_rule *rule;
+  const sphi_boxes *from;
+  sphi_boxes *to;
+  int64_t count; /* boxes in `from` */
+} level_job;
 
 /* --- halving --- */
 
@@ -187,33 +195,25 @@ static void offsets(tree_job *t) {
   t->top->begin[t->top->count] = at;
 }
 
-/* --- numbering nodes before they are made --- */
+/* --- numbering leaves before they are made --- */
 
 static uint32_t leaves_of(uint32_t n) {
   if (n <= SPHI_LEAF) return n > 0;
   return leaves_of(n / 2) + leaves_of(n - n / 2);
 }
 
-static uint32_t nodes_of(uint32_t leaves) { return leaves == 0 ? 1 : 2 * leaves - 1; }
-
-/* Preorder over the top: an empty subtree is one empty leaf node, without a leaf number. */
-static uint32_t number_top(tree_job *t, int node, int level, uint32_t next, uint32_t *leaf) {
-  top *p = t->top;
-  if (level == p->levels) {
-    int s = node - (p->count - 1);
-    uint32_t leaves = leaves_of(p->begin[s + 1] - p->begin[s]);
-    p->node[s] = next;
-    p->leaf[s] = *leaf;
-    *leaf += leaves;
-    return next + nodes_of(leaves);
+static uint32_t number_leaves(top *t) {
+  uint32_t leaf = 0;
+  for (int s = 0; s < t->count; s++) {
+    t->leaf[s] = leaf;
+    leaf += leaves_of(t->begin[s + 1] - t->begin[s]);
   }
-  uint32_t after = number_top(t, 2 * node + 1, level + 1, next + 1, leaf);
-  return number_top(t, 2 * node + 2, level + 1, after, leaf);
+  return leaf;
 }
 
 /* --- subtrees --- */
 
-static void box_of(sphi_node *node, const record *r, int64_t n) {
+static void box_of(sphi_boxes *b, int lane, const record *r, int64_t n) {
   for (int a = 0; a < 3; a++) {
     double lo = r[0].x[a], hi = lo;
     for (int64_t i = 1; i < n; i++) {
@@ -221,8 +221,9 @@ static void box_of(sphi_node *node, const record *r, int64_t n) {
       lo = x < lo ? x : lo;
       hi = x > hi ? x : hi;
     }
-    node->center[a] = 0.5 * lo + 0.5 * hi;
-    node->half[a] = fmax(hi - node->center[a], node->center[a] - lo) * (1.0 + 1e-14);
+    double middle = 0.5 * lo + 0.5 * hi;
+    b->center[a][lane] = middle;
+    b->half[a][lane] = (hi - middle > middle - lo ? hi - middle : middle - lo) * (1.0 + 1e-14);
   }
 }
 
@@ -244,86 +245,88 @@ static double bound_of(const tree_job *t, const record *r, int64_t n) {
   return s;
 }
 
-static void make_leaf(tree_job *t, sphi_node *node, record *r, uint32_t *leaf) {
-  int64_t n = node->end - node->begin;
-  node->leaf = 1;
-  if (n == 0) {
-    for (int a = 0; a < 3; a++) {
-      node->center[a] = 0.0;
-      node->half[a] = -INFINITY; /* infinitely far from everything */
-    }
-    node->s = 0.0;
-    return;
-  }
-  sort_leaf(r, n);
-  box_of(node, r, n);
-  node->s = bound_of(t, r, n);
-  for (int64_t i = 0; i < n; i++) t->l->order[node->begin + i] = r[i].index;
-  t->l->tree.leaf[(*leaf)++] = node->begin;
-}
-
-/* Box of a parent from its children. */
-static void join(sphi_node *nodes, uint32_t parent, const sphi_rule *rule) {
-  sphi_node *p = &nodes[parent];
-  const sphi_node *a = &nodes[parent + 1], *b = &nodes[a->skip];
-  if (b->half[0] < 0.0 || a->half[0] < 0.0) {
-    const sphi_node *full = b->half[0] < 0.0 ? a : b;
-    memcpy(p->center, full->center, sizeof p->center);
-    memcpy(p->half, full->half, sizeof p->half);
-    p->s = full->s;
-    return;
-  }
-  for (int k = 0; k < 3; k++) {
-    double lo = fmin(a->center[k] - a->half[k], b->center[k] - b->half[k]);
-    double hi = fmax(a->center[k] + a->half[k], b->center[k] + b->half[k]);
-    p->center[k] = 0.5 * lo + 0.5 * hi;
-    p->half[k] = fmax(hi - p->center[k], p->center[k] - lo) * (1.0 + 1e-14);
-    p->half[k] += 1e-15 * (fabs(lo) + fabs(hi)); /* lo and hi were rounded themselves */
-  }
-  p->s = sphi_rule_bound(rule, a->s, b->s);
-}
-
-static uint32_t halve(tree_job *t, uint32_t at, uint32_t begin, uint32_t end, uint32_t *leaf) {
-  sphi_node *node = &t->l->tree.nodes[at];
+static void make_leaf(tree_job *t, uint32_t leaf, uint32_t begin, int64_t n) {
   record *r = t->record + begin;
-  node->begin = begin;
-  node->end = end;
-  if (end - begin <= SPHI_LEAF) {
-    make_leaf(t, node, r, leaf);
-    return node->skip = at + 1;
+  sphi_boxes *b = &t->l->tree.level[0][leaf / 8];
+  sort_leaf(r, n);
+  box_of(b, (int)(leaf % 8), r, n);
+  b->s[leaf % 8] = bound_of(t, r, n);
+  for (int64_t i = 0; i < n; i++) t->l->order[begin + i] = r[i].index;
+  t->l->tree.leaf[leaf] = begin;
+}
+
+/* Leaves of the particles [begin, end), numbered from `leaf`; returns the next number. */
+static uint32_t halve(tree_job *t, uint32_t begin, uint32_t end, uint32_t leaf) {
+  uint32_t n = end - begin, middle = n / 2;
+  if (n == 0) return leaf;
+  if (n <= SPHI_LEAF) {
+    make_leaf(t, leaf, begin, n);
+    return leaf + 1;
   }
-  uint32_t middle = (end - begin) / 2;
-  int axis = widest_axis(r, end - begin, t->in->dim);
-  select_middle(r, end - begin, middle, axis);
-  node->leaf = 0;
-  uint32_t next = halve(t, at + 1, begin, begin + middle, leaf);
-  node->skip = halve(t, next, begin + middle, end, leaf);
-  join(t->l->tree.nodes, at, &t->l->rule);
-  return node->skip;
+  record *r = t->record + begin;
+  select_middle(r, n, middle, widest_axis(r, n, t->in->dim));
+  return halve(t, begin + middle, end, halve(t, begin, begin + middle, leaf));
 }
 
 static void subtree_body(void *job, int64_t begin, int64_t end, int32_t worker) {
   tree_job *t = job;
   (void)worker;
-  for (int64_t s = begin; s < end; s++) {
-    uint32_t leaf = t->top->leaf[s];
-    halve(t, t->top->node[s], t->top->begin[s], t->top->begin[s + 1], &leaf);
+  for (int64_t s = begin; s < end; s++)
+    halve(t, t->top->begin[s], t->top->begin[s + 1], t->top->leaf[s]);
+}
+
+/* --- levels above the leaves --- */
+
+/* The box around `count` boxes. */
+static void join(const sphi_rule *rule, const sphi_boxes *from, int count, sphi_boxes *to,
+                 int lane) {
+  for (int a = 0; a < 3; a++) {
+    double lo = INFINITY, hi = -INFINITY;
+    for (int k = 0; k < count; k++) {
+      double low = from->center[a][k] - from->half[a][k];
+      double high = from->center[a][k] + from->half[a][k];
+      lo = low < lo ? low : lo;
+      hi = high > hi ? high : hi;
+    }
+    double middle = 0.5 * lo + 0.5 * hi;
+    to->center[a][lane] = middle;
+    to->half[a][lane] = (hi - middle > middle - lo ? hi - middle : middle - lo) * (1.0 + 1e-14);
+    to->half[a][lane] += 1e-15 * (fabs(lo) + fabs(hi)); /* lo and hi were rounded themselves */
+  }
+  to->s[lane] = from->s[0];
+  for (int k = 1; k < count; k++) to->s[lane] = sphi_rule_bound(rule, to->s[lane], from->s[k]);
+}
+
+static void level_body(void *job, int64_t begin, int64_t end, int32_t worker) {
+  const level_job *j = job;
+  (void)worker;
+  for (int64_t k = begin; k < end; k++) {
+    int64_t left = j->count - 8 * k;
+    join(j->rule, &j->from[k], left < 8 ? (int)left : 8, &j->to[k / 8], (int)(k % 8));
   }
 }
 
-static uint32_t close_top(tree_job *t, int node, int level, uint32_t at) {
-  top *p = t->top;
-  sphi_node *nodes = t->l->tree.nodes;
-  if (level == p->levels) return nodes[at].skip;
-  int last = p->levels - level;
-  int s = (node + 1) * (1 << last) - p->count; /* first subtree below this node */
-  nodes[at].begin = p->begin[s];
-  nodes[at].end = p->begin[s + (1 << last)];
-  nodes[at].leaf = 0;
-  uint32_t next = close_top(t, 2 * node + 1, level + 1, at + 1);
-  nodes[at].skip = close_top(t, 2 * node + 2, level + 1, next);
-  join(nodes, at, &t->l->rule);
-  return nodes[at].skip;
+/* Lanes beyond the last box are read and then masked: give them numbers. */
+static void close_level(sphi_boxes *boxes, uint32_t count) {
+  for (uint32_t k = count; k % 8 != 0; k++) {
+    sphi_boxes *b = &boxes[k / 8];
+    for (int a = 0; a < 3; a++) b->center[a][k % 8] = b->half[a][k % 8] = 0.0;
+    b->s[k % 8] = b->s[0];
+  }
+}
+
+static void make_levels(sph_context *ctx, sphi_layout *l) {
+  sphi_tree *t = &l->tree;
+  uint32_t count = t->leaf_count;
+  t->boxes[0] = count;
+  close_level(t->level[0], count);
+  for (int k = 1; k < t->levels; k++) {
+    level_job job = {&l->rule, t->level[k - 1], t->level[k], count};
+    count = (count + 7) / 8;
+    t->boxes[k] = count;
+    sphi_parallel(ctx, count, 512, level_body, &job);
+    close_level(t->level[k], count);
+  }
 }
 
 /* --- building --- */
@@ -344,16 +347,23 @@ static sph_status reserve(sph_context *ctx, tree_job *t, sphi_scratch *tmp) {
   return SPH_OK;
 }
 
-static sph_status reserve_nodes(sph_context *ctx, tree_job *t, uint32_t nodes, uint32_t leaves) {
-  sphi_layout *l = t->l;
-  sph_status s = sphi_buffer_reserve(ctx, &l->b_nodes, sphi_mul(nodes, sizeof(sphi_node)));
+/* Levels up to the one that has at most eight boxes. */
+static sph_status reserve_levels(sph_context *ctx, sphi_layout *l, uint32_t leaves) {
+  sphi_tree *t = &l->tree;
+  size_t first[SPHI_LEVELS], all = 0;
+  t->leaf_count = leaves;
+  t->levels = 0;
+  for (size_t count = leaves; t->levels == 0 || count > 1; t->levels++) {
+    count = (count + 7) / 8; /* of eight boxes */
+    first[t->levels] = all;
+    all += count;
+  }
+  sph_status s = sphi_buffer_reserve(ctx, &l->b_nodes, all * sizeof(sphi_boxes));
   if (s == SPH_OK)
-    s = sphi_buffer_reserve(ctx, &l->b_leaf, sphi_mul((size_t)leaves + 1, sizeof(uint32_t)));
+    s = sphi_buffer_reserve(ctx, &l->b_leaf, ((size_t)leaves + 1) * sizeof(uint32_t));
   if (s != SPH_OK) return s;
-  l->tree.nodes = l->b_nodes.ptr;
-  l->tree.leaf = l->b_leaf.ptr;
-  l->tree.count = nodes;
-  l->tree.leaf_count = leaves;
+  for (int k = 0; k < t->levels; k++) t->level[k] = (sphi_boxes *)l->b_nodes.ptr + first[k];
+  t->leaf = l->b_leaf.ptr;
   return SPH_OK;
 }
 
@@ -374,13 +384,12 @@ sph_status sphi_tree_build(sph_context *ctx, sphi_layout *l, const sphi_input *i
   sphi_parallel(ctx, t.parts, 1, count_body, &t);
   offsets(&t);
   sphi_parallel(ctx, t.parts, 1, scatter_body, &t);
-  uint32_t leaves = 0;
-  uint32_t nodes = number_top(&t, 0, 0, 0, &leaves);
-  s = reserve_nodes(ctx, &t, nodes, leaves);
+  uint32_t leaves = number_leaves(t.top);
+  s = reserve_levels(ctx, l, leaves);
   if (s != SPH_OK) return s;
   sphi_parallel(ctx, t.top->count, 1, subtree_body, &t);
   l->tree.leaf[leaves] = (uint32_t)in->n;
-  close_top(&t, 0, 0, 0);
+  make_levels(ctx, l);
   return SPH_OK;
 }
 
@@ -396,37 +405,51 @@ uint32_t sphi_tree_leaf_at(const sphi_tree *t, uint32_t position) {
   return lo;
 }
 
-static double gap2(const sphi_rule *rule, const sphi_node *node, const double center[3],
-                   const double half[3]) {
-  double sum = 0.0;
-  for (int a = 0; a < rule->dim; a++) {
-    double d = node->center[a] - center[a];
-    if (rule->period[a] > 0.0) d = sphi_wrap(d, rule->period[a], rule->inverse[a]);
-    d = fabs(d) - (node->half[a] + half[a]);
-    if (d > 0.0) sum += d * d; /* not for NaN, from infinite boxes: they touch everything */
-  }
-  return sum;
+/* Lanes of a block that are boxes within reach. */
+static uint32_t boxes_near(const sphi_walk *w, int level, uint32_t block) {
+  uint32_t left = w->tree->boxes[level] - 8 * block;
+  uint32_t mask = w->near(w, &w->tree->level[level][block]);
+  return left < 8 ? mask & ((1u << left) - 1u) : mask;
 }
 
-int sphi_tree_ranges(const sphi_tree *t, const sphi_rule *rule, const double center[3],
-                     const double half[3], double s, double radius, uint32_t *cursor,
-                     sphi_range *out) {
-  uint32_t at = *cursor;
+void sphi_walk_begin(sphi_walk *w, const sphi_tree *t, const sphi_rule *rule,
+                     sphi_boxes_fn near, const double center[3], const double half[3], double s,
+                     double radius) {
+  double reach = (radius >= 0.0 ? radius : rule->cut) * SPHI_REACH_MARGIN;
+  w->near = near;
+  w->tree = t;
+  w->rule = rule;
+  for (int a = 0; a < 3; a++) {
+    w->center[a] = center[a];
+    w->half[a] = half[a];
+  }
+  w->s = s;
+  w->limit = -1.0;
+  if (radius >= 0.0 || rule->uniform) w->limit = reach * reach;
+  w->at = t->levels - 1;
+  w->block[w->at] = 0;
+  w->mask[w->at] = boxes_near(w, w->at, 0);
+}
+
+int sphi_walk_ranges(sphi_walk *w, sphi_range *out) {
+  const sphi_tree *t = w->tree;
   int n = 0;
-  while (at < t->count && n < SPHI_MAX_RANGES) {
-    const sphi_node *node = &t->nodes[at];
-    double reach = radius;
-    if (radius < 0.0) reach = rule->uniform ? rule->cut : sphi_reach(rule, s, node->s) + rule->skin;
-    reach *= 1.000001; /* rounding of boxes and distances */
-    if (!(gap2(rule, node, center, half) <= reach * reach)) {
-      at = node->skip;
+  while (w->at < t->levels && n < SPHI_MAX_RANGES) {
+    uint32_t mask = w->mask[w->at];
+    if (mask == 0) {
+      w->at++;
       continue;
     }
-    at++;
-    if (!node->leaf) continue;
-    if (n > 0 && out[n - 1].end == node->begin) out[n - 1].end = node->end;
-    else out[n++] = (sphi_range){node->begin, node->end};
+    w->mask[w->at] = mask & (mask - 1);
+    uint32_t box = 8 * w->block[w->at] + (uint32_t)__builtin_ctz(mask);
+    if (w->at > 0) {
+      w->at--;
+      w->block[w->at] = box;
+      w->mask[w->at] = boxes_near(w, w->at, box);
+      continue;
+    }
+    if (n > 0 && out[n - 1].end == t->leaf[box]) out[n - 1].end = t->leaf[box + 1];
+    else out[n++] = (sphi_range){t->leaf[box], t->leaf[box + 1]};
   }
-  *cursor = at;
   return n;
 }
