@@ -100,6 +100,14 @@ static void coarsen(const sphi_input *in, sphi_cells *c, const double width[3], 
   }
 }
 
+/* Sparse cells cost more for themselves than for their particles: somewhat larger ones then. */
+static double suit_occupancy(const sphi_input *in, const sphi_cells *c, double edge) {
+  static const double wanted[] = {16.0, 10.0, 10.0}, most[] = {6.0, 1.4, 1.2};
+  double occupancy = (double)in->n / product(c->count);
+  double factor = pow(wanted[in->dim - 1] / occupancy, 1.0 / in->dim);
+  return edge * fmax(1.0, fmin(factor, most[in->dim - 1]));
+}
+
 static void set_widths(const sph_neighbors_options *o, const sphi_input *in,
                        const sphi_rule *rule, sphi_cells *c, double width[3]) {
   for (int a = 0; a < in->dim; a++) {
@@ -134,6 +142,11 @@ static sph_status choose_counts(sph_context *ctx, const sph_neighbors_options *o
     if (s != SPH_OK) return s;
     shrink_widths(in, c, edge, tmp->sample.ptr, width);
     coarsen(in, c, width, edge, limit);
+  }
+  double suited = suit_occupancy(in, c, edge);
+  for (int a = 0; a < in->dim; a++) {
+    int32_t larger = cells_along(width[a], suited, most_cells(in, c, a, width[a]));
+    if (c->count[a] >= 8 && larger < c->count[a]) c->count[a] = larger; /* few cells are too large already */
   }
   for (int a = 0; a < in->dim; a++) {
     c->inv[a] = c->wrap[a] > 0.0 ? (double)c->count[a] : c->count[a] / width[a];

@@ -29,10 +29,9 @@ static double bound_of_rows(const sphi_group *g) {
   return bound;
 }
 
-/* The image nearest to the centre must be the one nearest to every row. */
+/* Whether the image nearest to the centre is the one nearest to every row. */
 static int images_are_unique(const sphi_group *g, double reach) {
   const sphi_rule *rule = &g->l->rule;
-  if (rule->far) return 0;
   for (int a = 0; a < rule->dim; a++)
     if (rule->period[a] > 0.0 && 2.000001 * (g->half[a] + reach) > rule->period[a]) return 0;
   return 1;
@@ -44,7 +43,8 @@ static double set_precision(sphi_group *g) {
   double size = 0.0;
   for (int a = 0; a < rule->dim; a++) size = fmax(size, g->half[a]);
   size += rule->cut;
-  g->single = size > 1e-12 && size < 1e12 && images_are_unique(g, rule->cut);
+  g->single = size > 1e-12 && size < 1e12 && !rule->far;
+  g->narrow = rule->periodic && !images_are_unique(g, rule->cut);
   return size;
 }
 
@@ -58,6 +58,7 @@ static void set_bounds(sphi_group *g, double size) {
   g->doubt_linear = (float)linear;
   g->doubt_constant = (float)constant;
   for (int a = 0; a < 3; a++) g->box[a] = (float)(g->half[a] * (1.0 + 1e-6) + 1e-6 * size);
+  for (int a = 0; a < 3; a++) g->period[a] = (float)rule->period[a];
   g->skin = (float)rule->skin;
   g->s_group = (float)g->s;
 }

@@ -27,6 +27,8 @@ typedef struct sphi_group {
   double center[3], half[3]; /* box of the rows */
   double s;           /* bound of their s */
   int single;         /* 0: only the exact test is possible */
+  int narrow;         /* a periodic box so narrow that each row has images of its own */
+  float period[3];    /* 0 on open axes */
   float box[3];       /* half widths, rounded up */
   float low, high;    /* uniform: bounds of the squared distance */
   float doubt_linear, doubt_constant;
@@ -34,9 +36,9 @@ typedef struct sphi_group {
 } sphi_group;
 
 /* Error of a squared distance near a cutoff c, where no coordinate exceeds S = half width + reach
- * and so each is rounded to S * 2^-25, and differences likewise: at most 4.2e-7 S c + 6e-7 c^2.
- * Taken as more than twice that. */
-#define SPHI_DOUBT_LINEAR 1e-6
+ * and so each is rounded to S * 2^-25, and differences likewise: at most 4.2e-7 S c + 6e-7 c^2;
+ * where images are chosen in single precision, twice the first term. Taken as twice that. */
+#define SPHI_DOUBT_LINEAR 1.7e-6
 #define SPHI_DOUBT_SQUARE 1.5e-6f
 #define SPHI_DOUBT_CONSTANT 1e-12
 
