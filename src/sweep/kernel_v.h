@@ -10,7 +10,8 @@
 /* (a - q)+ */
 SPHI_INLINE vd sphi_ramp(double a, vd q) { return v_max(v_set(a) - q, v_set(0.0)); }
 
-SPHI_INLINE void sphi_kv_cubic(vd q, vd qi, vd *w, vd *g) {
+SPHI_INLINE void sphi_kv_cubic(vd q, vd *w, vd *g) {
+  vd qi = v_rcp(v_max(q, v_set(1e-150)));
   vd t = sphi_ramp(2.0, q);
   vm inner = v_lt(q, v_set(1.0));
   vd t2 = t * t;
@@ -56,7 +57,8 @@ SPHI_INLINE void sphi_kv_c6(vd q, int dim, vd *w, vd *g) {
   }
 }
 
-SPHI_INLINE void sphi_kv_quintic(vd q, vd qi, vd *w, vd *g) {
+SPHI_INLINE void sphi_kv_quintic(vd q, vd *w, vd *g) {
+  vd qi = v_rcp(v_max(q, v_set(1e-150)));
   vd t3 = sphi_ramp(3.0, q), t2 = sphi_ramp(2.0, q), t1 = sphi_ramp(1.0, q);
   vd a = t3 * t3 * t3 * t3, b = t2 * t2 * t2 * t2, c = t1 * t1 * t1 * t1;
   *w = v_fma(c * t1, v_set(15.0), v_fma(b * t2, v_set(-6.0), a * t3));
@@ -89,15 +91,15 @@ SPHI_INLINE void sphi_kv_other(const struct sph_kernel *kernel, vd q, vd *w, vd 
   *g = v_load(lg);
 }
 
-/* q and 1/q in, w(q) and w'(q)/q out. */
-SPHI_INLINE void sphi_kv(const struct sph_kernel *kernel, int type, int dim, vd q, vd qi, vd *w,
+/* w(q) and w'(q)/q. */
+SPHI_INLINE void sphi_kv(const struct sph_kernel *kernel, int type, int dim, vd q, vd *w,
                          vd *g) {
   switch (type) {
     case SPH_KERNEL_WENDLAND_C2: sphi_kv_c2(q, dim, w, g); break;
-    case SPH_KERNEL_CUBIC_SPLINE: sphi_kv_cubic(q, qi, w, g); break;
+    case SPH_KERNEL_CUBIC_SPLINE: sphi_kv_cubic(q, w, g); break;
     case SPH_KERNEL_WENDLAND_C4: sphi_kv_c4(q, dim, w, g); break;
     case SPH_KERNEL_WENDLAND_C6: sphi_kv_c6(q, dim, w, g); break;
-    case SPH_KERNEL_QUINTIC_SPLINE: sphi_kv_quintic(q, qi, w, g); break;
+    case SPH_KERNEL_QUINTIC_SPLINE: sphi_kv_quintic(q, w, g); break;
     case SPH_KERNEL_GAUSSIAN: sphi_kv_gaussian(q, 3.0, w, g); break;
     default: sphi_kv_other(kernel, q, w, g); break;
   }
