@@ -16,10 +16,10 @@
 #include <string.h>
 
 enum {
-  MAX_AXIS = 1 << 20,     /* cells an axis; keeps rounding of (x - lo) * inv below the margin */
+  MAX_AXIS = 1 << 20, /* cells an axis; keeps rounding of (x - lo) * inv below the margin */
   TILE_PARTICLES = 1200,
   SAMPLE = 2048,
-  BLOCKS = 64,            /* pieces of the prefix sum */
+  BLOCKS = 64, /* pieces of the prefix sum */
   GRAIN = 4096
 };
 
@@ -81,8 +81,7 @@ static double most_cells(const sphi_input *in, const sphi_cells *c, int axis, do
   return fmax(1.0, fmin((double)MAX_AXIS, 1e8 / (1.0 + away / width)));
 }
 
-static void count_cells(const sphi_input *in, sphi_cells *c, const double width[3],
-                        double edge) {
+static void count_cells(const sphi_input *in, sphi_cells *c, const double width[3], double edge) {
   for (int a = 0; a < 3; a++) {
     c->count[a] = 1;
     if (a < in->dim) c->count[a] = cells_along(width[a], edge, most_cells(in, c, a, width[a]));
@@ -108,8 +107,8 @@ static double suit_occupancy(const sphi_input *in, const sphi_cells *c, double e
   return edge * fmax(1.0, fmin(factor, most[in->dim - 1]));
 }
 
-static void set_widths(const sph_neighbors_options *o, const sphi_input *in,
-                       const sphi_rule *rule, sphi_cells *c, double width[3]) {
+static void set_widths(const sph_neighbors_options *o, const sphi_input *in, const sphi_rule *rule,
+                       sphi_cells *c, double width[3]) {
   for (int a = 0; a < in->dim; a++) {
     int wraps = rule->period[a] > 0.0;
     c->wrap[a] = rule->inverse[a];
@@ -146,7 +145,8 @@ static sph_status choose_counts(sph_context *ctx, const sph_neighbors_options *o
   double suited = suit_occupancy(in, c, edge);
   for (int a = 0; a < in->dim; a++) {
     int32_t larger = cells_along(width[a], suited, most_cells(in, c, a, width[a]));
-    if (c->count[a] >= 8 && larger < c->count[a]) c->count[a] = larger; /* few cells are too large already */
+    if (c->count[a] >= 8 && larger < c->count[a])
+      c->count[a] = larger; /* few cells are too large already */
   }
   for (int a = 0; a < in->dim; a++) {
     c->inv[a] = c->wrap[a] > 0.0 ? (double)c->count[a] : c->count[a] / width[a];
@@ -332,8 +332,7 @@ sph_status sphi_cells_build(sph_context *ctx, sphi_layout *l, const sphi_input *
   sort_job job = {.l = l, .in = in, .parts = choose_parts(ctx, in->n, c->total)};
   s = sphi_buffer_reserve(ctx, &tmp->key, sphi_mul((size_t)in->n, sizeof(uint32_t)));
   if (s == SPH_OK)
-    s = sphi_buffer_reserve(ctx, &tmp->histogram,
-                            (size_t)job.parts * c->total * sizeof(uint32_t));
+    s = sphi_buffer_reserve(ctx, &tmp->histogram, (size_t)job.parts * c->total * sizeof(uint32_t));
   if (s != SPH_OK) return s;
   job.key = tmp->key.ptr;
   job.histogram = tmp->histogram.ptr;
@@ -347,8 +346,10 @@ uint32_t sphi_cells_at(const sphi_cells *c, uint32_t position) {
   uint32_t lo = 0, hi = c->total; /* the last cell that begins at or before the position */
   while (hi - lo > 1) {
     uint32_t mid = lo + (hi - lo) / 2;
-    if (c->first[mid] <= position) lo = mid;
-    else hi = mid;
+    if (c->first[mid] <= position)
+      lo = mid;
+    else
+      hi = mid;
   }
   return lo;
 }
@@ -399,15 +400,17 @@ static int add_range(sphi_range *out, int n, uint32_t begin, uint32_t end) {
 static int merge_ranges(sphi_range *out, int n) {
   int kept = 0;
   for (int r = 0; r < n; r++) {
-    if (kept > 0 && out[kept - 1].end == out[r].begin) out[kept - 1].end = out[r].end;
-    else out[kept++] = out[r];
+    if (kept > 0 && out[kept - 1].end == out[r].begin)
+      out[kept - 1].end = out[r].end;
+    else
+      out[kept++] = out[r];
   }
   return kept;
 }
 
 /* One row of cells: runs of consecutive numbers become one range. */
-static int add_row(const sphi_cells *c, uint32_t row, const uint32_t *xs, int nx,
-                   sphi_range *out, int n) {
+static int add_row(const sphi_cells *c, uint32_t row, const uint32_t *xs, int nx, sphi_range *out,
+                   int n) {
   for (int i = 0; i < nx;) {
     uint32_t first = row + xs[i], last = first;
     for (i++; i < nx && row + xs[i] == last + 1; i++) last++;

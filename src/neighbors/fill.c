@@ -17,13 +17,13 @@
 #endif
 
 enum {
-  CHUNK = 1024,              /* rows of a chunk, as long as slots suffice */
-  SLOTS_EACH = 4,            /* slots a worker: for balance */
+  CHUNK = 1024,   /* rows of a chunk, as long as slots suffice */
+  SLOTS_EACH = 4, /* slots a worker: for balance */
   FIRST_CANDIDATES = 4096,
-  ARRAYS = 8,                /* of candidates: see sphi_candidates */
-  SKEW = 80,                 /* so that candidate arrays do not start at the same cache sets */
+  ARRAYS = 8, /* of candidates: see sphi_candidates */
+  SKEW = 80,  /* so that candidate arrays do not start at the same cache sets */
   SAMPLES = 96,
-  LARGE_LIST = 1 << 25       /* bytes; larger than what caches keep */
+  LARGE_LIST = 1 << 25 /* bytes; larger than what caches keep */
 };
 
 static const int64_t first_slot = (int64_t)1 << 17; /* pairs */
@@ -124,7 +124,8 @@ static int64_t length_of(const sphi_range *r, int count) {
   return sum;
 }
 
-/* Gather the candidates of a group, walking with the best loops there are: 0, or the capacity that would be needed so far. */
+/* Gather the candidates of a group, walking with the best loops there are: 0, or the capacity that
+ * would be needed so far. */
 static int64_t gather(const sphi_search *best, const sphi_search *search, const sphi_group *g,
                       uint32_t home, sphi_candidates *c) {
   sphi_range ranges[SPHI_MAX_RANGES];
@@ -185,8 +186,10 @@ static void copy_past_caches(uint32_t *to, const uint32_t *from, int64_t count) 
 
 /* Put a finished chunk in its place. */
 static void place_chunk(const fill *f, slot *s, const uint32_t *from) {
-  if (f->p->b_pair.bytes > LARGE_LIST) copy_past_caches(f->list->pair + s->place, from, s->ready_count);
-  else memcpy(f->list->pair + s->place, from, (size_t)s->ready_count * sizeof *from);
+  if (f->p->b_pair.bytes > LARGE_LIST)
+    copy_past_caches(f->list->pair + s->place, from, s->ready_count);
+  else
+    memcpy(f->list->pair + s->place, from, (size_t)s->ready_count * sizeof *from);
   for (int64_t i = s->ready; i < s->ready_end; i++) f->l->start[i] += s->place;
   s->place = -1;
 }
@@ -340,8 +343,7 @@ static sph_status run_waves(fill *f) {
     run_wave(f);
     s = assign_places(f);
     if (s == SPH_OK) s = adapt(f);
-    if (s == SPH_OK)
-      s = sphi_progress(f->ctx, (double)f->next / (double)f->l->n, "neighbours");
+    if (s == SPH_OK) s = sphi_progress(f->ctx, (double)f->next / (double)f->l->n, "neighbours");
   }
   if (s == SPH_OK) flush(f);
   return s;
@@ -385,8 +387,7 @@ static sph_status set_up(fill *f) {
   int64_t candidates = f->p->candidate_capacity, pairs = f->p->slot_capacity;
   if (candidates == 0) candidates = FIRST_CANDIDATES;
   if (pairs == 0) pairs = first_slot;
-  sph_status s =
-      sphi_buffer_reserve(f->ctx, &f->p->b_rows, (size_t)f->slot_count * sizeof(slot));
+  sph_status s = sphi_buffer_reserve(f->ctx, &f->p->b_rows, (size_t)f->slot_count * sizeof(slot));
   if (s == SPH_OK) s = reserve_buffers(f, candidates, pairs);
   if (s != SPH_OK) return s;
   f->slots = f->p->b_rows.ptr;
@@ -397,7 +398,11 @@ static sph_status set_up(fill *f) {
 
 sph_status sphi_fill(sph_neighbors *list, sphi_layout *l) {
   sph_context *ctx = list->base.ctx;
-  fill f = {.list = list, .ctx = ctx, .l = l, .p = &list->priv->pairs, .chunk = CHUNK,
+  fill f = {.list = list,
+            .ctx = ctx,
+            .l = l,
+            .p = &list->priv->pairs,
+            .chunk = CHUNK,
             .search = sphi_search_of(ctx)};
   sph_status s = set_up(&f);
   if (s == SPH_OK && l->n > 0) s = begin_pairs(&f);
@@ -429,7 +434,10 @@ static void restore_body(void *job, int64_t begin, int64_t end, int32_t worker) 
 }
 
 void sphi_fill_again(sph_neighbors *list, sphi_layout *l) {
-  fill f = {.list = list, .ctx = list->base.ctx, .l = l, .total = l->start[l->n],
+  fill f = {.list = list,
+            .ctx = list->base.ctx,
+            .l = l,
+            .total = l->start[l->n],
             .search = sphi_search_of(list->base.ctx)};
   sphi_parallel(f.ctx, l->n, SPHI_BLOCK, restore_body, &f);
   finish(&f);

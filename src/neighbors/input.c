@@ -8,8 +8,8 @@ enum { GRAIN = 8192 };
 
 typedef struct part {
   double lo[3], hi[3], h_min, h_max;
-  int64_t bad;     /* lowest invalid particle */
-  char pad[64];    /* parts of two workers share no cache line */
+  int64_t bad;  /* lowest invalid particle */
+  char pad[64]; /* parts of two workers share no cache line */
 } part;
 
 typedef struct scan {

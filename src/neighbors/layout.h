@@ -37,13 +37,13 @@ typedef struct sphi_rule {
 } sphi_rule;
 
 typedef struct sphi_cells {
-  int32_t count[3];    /* cells an axis */
+  int32_t count[3];     /* cells an axis */
   double lo[3], inv[3]; /* cell = clamp((x - lo) * inv); periodic axes wrap first */
-  double wrap[3];      /* inverse box length of periodic axes, 0 otherwise */
-  uint32_t *table[3];  /* cell number = table[0][ix] + table[1][iy] + table[2][iz] */
-  uint32_t total;      /* cell numbers, those of tile padding included */
-  int32_t tile[2];     /* cells of a tile in x and y */
-  uint32_t *first;     /* total + 1: first sweep position of a cell */
+  double wrap[3];       /* inverse box length of periodic axes, 0 otherwise */
+  uint32_t *table[3];   /* cell number = table[0][ix] + table[1][iy] + table[2][iz] */
+  uint32_t total;       /* cell numbers, those of tile padding included */
+  int32_t tile[2];      /* cells of a tile in x and y */
+  uint32_t *first;      /* total + 1: first sweep position of a cell */
 } sphi_cells;
 
 /* Eight boxes, as centre and half width, so that distances on a circle are simple. */
@@ -100,12 +100,12 @@ struct sphi_neighbors_private {
   sphi_layout layout[2]; /* [0] is the present one, [1] the next */
   sphi_scratch scratch;
   sphi_pairs pairs;
-  sphi_buffer b_now;     /* VERLET: positions of the last update, sweep order */
-  double *now[3];        /* where they are: layout[0].x unless the list was reused */
-  double moved;          /* largest displacement since the build; 0 after a build */
+  sphi_buffer b_now;                /* VERLET: positions of the last update, sweep order */
+  double *now[3];                   /* where they are: layout[0].x unless the list was reused */
+  double moved;                     /* largest displacement since the build; 0 after a build */
   sphi_buffer b_offsets, b_indices; /* public rows */
   int32_t rows_valid;
-  const void *set;       /* identity only, never followed */
+  const void *set; /* identity only, never followed */
   uint64_t generation, revision_x, revision_h;
 };
 
@@ -158,13 +158,12 @@ struct sphi_walk {
   const sphi_rule *rule;
   double center[3], half[3], s;
   double limit; /* square of the reach; negative: by the rule */
-  int at; /* level */
+  int at;       /* level */
   uint32_t block[SPHI_LEVELS], mask[SPHI_LEVELS];
 };
 
-void sphi_walk_begin(sphi_walk *w, const sphi_tree *t, const sphi_rule *rule,
-                     sphi_boxes_fn near, const double center[3], const double half[3], double s,
-                     double radius);
+void sphi_walk_begin(sphi_walk *w, const sphi_tree *t, const sphi_rule *rule, sphi_boxes_fn near,
+                     const double center[3], const double half[3], double s, double radius);
 int sphi_walk_ranges(sphi_walk *w, sphi_range *out);
 
 /* --- the pair test: the same operations in the same order wherever pairs are decided --- */
@@ -179,10 +178,14 @@ static inline double sphi_wrap(double d, double period, double inverse) {
 
 static inline double sphi_reach(const sphi_rule *r, double a, double b) {
   switch (r->h_rule) {
-    case SPH_H_ARITHMETIC: return a + b;
-    case SPH_H_HARMONIC: return 2.0 / (a + b);
-    case SPH_H_MIN: return a < b ? a : b;
-    default: return a > b ? a : b;
+  case SPH_H_ARITHMETIC:
+    return a + b;
+  case SPH_H_HARMONIC:
+    return 2.0 / (a + b);
+  case SPH_H_MIN:
+    return a < b ? a : b;
+  default:
+    return a > b ? a : b;
   }
 }
 

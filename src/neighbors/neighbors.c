@@ -43,11 +43,9 @@ static sph_status check_options(sph_context *ctx, const sph_neighbors_options *o
   if (o->h_rule < SPH_H_ARITHMETIC || o->h_rule > SPH_H_AVERAGE)
     return sphi_fail(ctx, SPH_ERR_ARG, "h_rule %d is unknown", (int)o->h_rule);
   if (!(o->support > 0.0) || !is_finite(o->support))
-    return sphi_fail(ctx, SPH_ERR_ARG, "support is %g; it must be positive and finite",
-                     o->support);
+    return sphi_fail(ctx, SPH_ERR_ARG, "support is %g; it must be positive and finite", o->support);
   if (!(o->skin >= 0.0) || !is_finite(o->skin))
-    return sphi_fail(ctx, SPH_ERR_ARG, "skin is %g; it must not be negative, and finite",
-                     o->skin);
+    return sphi_fail(ctx, SPH_ERR_ARG, "skin is %g; it must not be negative, and finite", o->skin);
   if (o->max_pairs < 0)
     return sphi_fail(ctx, SPH_ERR_ARG, "max_pairs is %lld", (long long)o->max_pairs);
   return check_box(ctx, o);
@@ -66,8 +64,7 @@ static sph_neighbors *new_handle(sph_context *ctx, const sph_neighbors_options *
   list->base.magic = SPHI_MAGIC_NEIGHBORS;
   list->base.ctx = ctx;
   list->options = *o;
-  for (int a = 0; a < 3; a++)
-    list->period[a] = o->periodic[a] ? o->box_hi[a] - o->box_lo[a] : 0.0;
+  for (int a = 0; a < 3; a++) list->period[a] = o->periodic[a] ? o->box_hi[a] - o->box_lo[a] : 0.0;
   sphi_context_retain(ctx);
   return list;
 }
@@ -178,8 +175,8 @@ static sph_status build(sph_neighbors *list, sphi_input *in) {
   return s;
 }
 
-sph_status sph_neighbors_build_arrays(sph_neighbors *list, int32_t dim, int64_t n,
-                                      const double *x, const double *h, double h0) {
+sph_status sph_neighbors_build_arrays(sph_neighbors *list, int32_t dim, int64_t n, const double *x,
+                                      const double *h, double h0) {
   sph_status s = sphi_check_handle(NULL, list, SPHI_MAGIC_NEIGHBORS, "list");
   if (s != SPH_OK) return s;
   sphi_input in = {.dim = dim, .n = n, .x = x, .h = h, .h0 = h0};
@@ -199,7 +196,8 @@ static sph_status read_set(const sph_neighbors *list, const sph_particles *set, 
   in->h = sph_particles_field_const(set, SPH_FIELD_H);
   in->h0 = 1.0;
   if (in->n > 0 && in->h == NULL)
-    return sphi_fail(ctx, SPH_ERR_ARG, "the set has no field %s", sphi_field_name(set, SPH_FIELD_H));
+    return sphi_fail(ctx, SPH_ERR_ARG, "the set has no field %s",
+                     sphi_field_name(set, SPH_FIELD_H));
   return SPH_OK;
 }
 
@@ -275,17 +273,15 @@ static void accept_move(sph_neighbors *list, move_job *m, double moved) {
   p->rows_valid = 0;
 }
 
-static sph_status measure(sph_neighbors *list, const sphi_input *in, move_job *m,
-                          double *moved) {
+static sph_status measure(sph_neighbors *list, const sphi_input *in, move_job *m, double *moved) {
   struct sphi_neighbors_private *p = list->priv;
   sph_context *ctx = list->base.ctx;
   size_t stride = (size_t)in->n + SPHI_POSITION_PADDING, workers = (size_t)sphi_workers(ctx);
   sph_status s = sphi_buffer_reserve(ctx, &p->layout[1].b_x, stride * 3 * sizeof(double));
-  if (s == SPH_OK)
-    s = sphi_buffer_reserve(ctx, &p->scratch.sample, workers * 8 * sizeof(double));
+  if (s == SPH_OK) s = sphi_buffer_reserve(ctx, &p->scratch.sample, workers * 8 * sizeof(double));
   if (s != SPH_OK) return s;
-  *m = (move_job){.l = &p->layout[0], .in = in, .most = p->scratch.sample.ptr,
-                  .differs = INT64_MAX};
+  *m =
+      (move_job){.l = &p->layout[0], .in = in, .most = p->scratch.sample.ptr, .differs = INT64_MAX};
   for (size_t a = 0; a < 3; a++) m->to[a] = (double *)p->layout[1].b_x.ptr + a * stride;
   for (size_t w = 0; w < workers; w++) m->most[w * 8] = 0.0;
   sphi_parallel(ctx, in->n, GRAIN, move_body, m);
@@ -319,8 +315,7 @@ static sph_status update(sph_neighbors *list, sphi_input *in, int32_t *rebuilt) 
   return s;
 }
 
-sph_status sph_neighbors_update(sph_neighbors *list, const sph_particles *set,
-                                int32_t *rebuilt) {
+sph_status sph_neighbors_update(sph_neighbors *list, const sph_particles *set, int32_t *rebuilt) {
   sphi_input in;
   sph_status s = sphi_check_handle(NULL, list, SPHI_MAGIC_NEIGHBORS, "list");
   if (s == SPH_OK) s = read_set(list, set, &in);
@@ -340,9 +335,8 @@ sph_status sph_neighbors_update(sph_neighbors *list, const sph_particles *set,
   return SPH_OK;
 }
 
-sph_status sph_neighbors_update_arrays(sph_neighbors *list, int32_t dim, int64_t n,
-                                       const double *x, const double *h, double h0,
-                                       int32_t *rebuilt) {
+sph_status sph_neighbors_update_arrays(sph_neighbors *list, int32_t dim, int64_t n, const double *x,
+                                       const double *h, double h0, int32_t *rebuilt) {
   sph_status s = sphi_check_handle(NULL, list, SPHI_MAGIC_NEIGHBORS, "list");
   if (s != SPH_OK) return s;
   sphi_input in = {.dim = dim, .n = n, .x = x, .h = h, .h0 = h0};
@@ -370,8 +364,7 @@ int64_t sph_neighbors_builds(const sph_neighbors *list) {
 
 sph_status sphi_neighbors_check(const sph_neighbors *list, int32_t dim, int64_t n) {
   sph_context *ctx = list->base.ctx;
-  if (list->builds == 0)
-    return sphi_fail(ctx, SPH_ERR_STATE, "the neighbour list was never built");
+  if (list->builds == 0) return sphi_fail(ctx, SPH_ERR_STATE, "the neighbour list was never built");
   if (list->dim != dim || list->n != n)
     return sphi_fail(ctx, SPH_ERR_ARG,
                      "the neighbour list is of %lld particles in %d-D, not of %lld in %d-D",

@@ -74,8 +74,8 @@ static inline void put_floats(float *p, vf v, uint32_t keep) {
 
 /* first, first + 1, ... of the lanes kept */
 static inline void put_counted(uint32_t *p, uint32_t first, uint32_t keep) {
-  __m256i v = _mm256_add_epi32(_mm256_set1_epi32((int)first),
-                               _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
+  __m256i v =
+      _mm256_add_epi32(_mm256_set1_epi32((int)first), _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
   store_indices(p, to_front(v, keep));
 }
 

@@ -61,9 +61,9 @@ static inline void put_floats(float *p, vf v, uint32_t keep) {
 
 /* first, first + 1, ... of the lanes kept */
 static inline void put_counted(uint32_t *p, uint32_t first, uint32_t keep) {
-  __m512i v = _mm512_add_epi32(
-      _mm512_set1_epi32((int)first),
-      _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15));
+  __m512i v =
+      _mm512_add_epi32(_mm512_set1_epi32((int)first),
+                       _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15));
   _mm512_storeu_si512(p, _mm512_maskz_compress_epi32((__mmask16)keep, v));
 }
 

@@ -19,9 +19,10 @@ typedef struct vm {
   i4 a, b, c, d; /* all bits of a lane */
 } vm;
 
-#define EACH(type, expression_a, expression_b, expression_c, expression_d)                   \
-  (type){expression_a, expression_b, expression_c, expression_d}
-#define BINARY(type, op, x, y) EACH(type, (x).a op(y).a, (x).b op(y).b, (x).c op(y).c, (x).d op(y).d)
+#define EACH(type, expression_a, expression_b, expression_c, expression_d) \
+  (type) { expression_a, expression_b, expression_c, expression_d }
+#define BINARY(type, op, x, y) \
+  EACH(type, (x).a op(y).a, (x).b op(y).b, (x).c op(y).c, (x).d op(y).d)
 #define CALL2(f, x, y) EACH(vf, f((x).a, (y).a), f((x).b, (y).b), f((x).c, (y).c), f((x).d, (y).d))
 
 static inline v4 load4(const float *p) {
@@ -80,8 +81,7 @@ static inline v4 relative4(const double *x, double center) {
   return narrow(relative2(x, center), relative2(x + 2, center));
 }
 static inline vf vf_relative(const double *x, double c) {
-  return EACH(vf, relative4(x, c), relative4(x + 4, c), relative4(x + 8, c),
-              relative4(x + 12, c));
+  return EACH(vf, relative4(x, c), relative4(x + 4, c), relative4(x + 8, c), relative4(x + 12, c));
 }
 
 static inline d2 wrapped2(d2 d, double period, double inverse) {

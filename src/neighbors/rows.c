@@ -24,9 +24,7 @@ static int is_near(const sph_neighbors *list, int64_t i, int64_t j) {
   return sphi_distance2(&l->rule, x, i, j) < cut * cut;
 }
 
-static int is_filtered(const sph_neighbors *list) {
-  return list->priv->layout[0].rule.skin > 0.0;
-}
+static int is_filtered(const sph_neighbors *list) { return list->priv->layout[0].rule.skin > 0.0; }
 
 static void count_body(void *job, int64_t begin, int64_t end, int32_t worker) {
   rows_job *r = job;
@@ -122,8 +120,7 @@ static sph_status make_rows(sph_neighbors *list) {
   struct sphi_neighbors_private *p = list->priv;
   sph_context *ctx = list->base.ctx;
   size_t n = (size_t)list->n;
-  sph_status s =
-      sphi_buffer_reserve(ctx, &p->b_offsets, sphi_mul(n + 1, sizeof(int64_t)));
+  sph_status s = sphi_buffer_reserve(ctx, &p->b_offsets, sphi_mul(n + 1, sizeof(int64_t)));
   if (s != SPH_OK) return s;
   rows_job job = {list, p->b_offsets.ptr, NULL};
   job.offsets[0] = 0;
@@ -145,8 +142,7 @@ sph_status sph_neighbors_rows(sph_neighbors *list, const int64_t **offsets,
   sph_context *ctx = list->base.ctx;
   if (offsets == NULL) return sphi_fail(ctx, SPH_ERR_ARG, "offsets is NULL");
   if (indices == NULL) return sphi_fail(ctx, SPH_ERR_ARG, "indices is NULL");
-  if (list->builds == 0)
-    return sphi_fail(ctx, SPH_ERR_STATE, "the neighbour list was never built");
+  if (list->builds == 0) return sphi_fail(ctx, SPH_ERR_STATE, "the neighbour list was never built");
   if (!list->priv->rows_valid) s = make_rows(list);
   if (s != SPH_OK) return s;
   *offsets = list->priv->b_offsets.ptr;
@@ -201,7 +197,8 @@ static void span_of(const sphi_cells *c, const sphi_rule *rule, int axis, double
   int last = sphi_cells_index(c, axis, x + reach);
   if (rule->period[axis] > 0.0) {
     int n = (last - *first + c->count[axis]) % c->count[axis] + 1;
-    if (last == *first && 2.0 * reach * c->wrap[axis] * c->count[axis] > 0.999) return; /* all around */
+    if (last == *first && 2.0 * reach * c->wrap[axis] * c->count[axis] > 0.999)
+      return; /* all around */
     *count = n;
   } else {
     *count = last - *first + 1;
@@ -247,19 +244,23 @@ int64_t sphi_neighbors_near(const sph_neighbors *list, const double *point, doub
   query q = {list, point, radius * radius, capacity, 0, indices};
   double reach = (radius + list->priv->moved) * 1.000001; /* cells are those of the build */
   if (l->n == 0) return 0;
-  if (l->method == SPH_NEIGHBORS_TREE) query_tree(&q, reach);
-  else if (l->method == SPH_NEIGHBORS_ALL_PAIRS) test_range(&q, (sphi_range){0, (uint32_t)l->n});
-  else query_cells(&q, reach);
-  if (q.found >= capacity) heap_sort(indices, capacity);
-  else sort_indices(indices, q.found, 48);
+  if (l->method == SPH_NEIGHBORS_TREE)
+    query_tree(&q, reach);
+  else if (l->method == SPH_NEIGHBORS_ALL_PAIRS)
+    test_range(&q, (sphi_range){0, (uint32_t)l->n});
+  else
+    query_cells(&q, reach);
+  if (q.found >= capacity)
+    heap_sort(indices, capacity);
+  else
+    sort_indices(indices, q.found, 48);
   return q.found;
 }
 
 static sph_status check_query(const sph_neighbors *list, const double *point, double radius,
                               int64_t capacity, const int32_t *indices, const int64_t *found) {
   sph_context *ctx = list->base.ctx;
-  if (list->builds == 0)
-    return sphi_fail(ctx, SPH_ERR_STATE, "the neighbour list was never built");
+  if (list->builds == 0) return sphi_fail(ctx, SPH_ERR_STATE, "the neighbour list was never built");
   if (point == NULL || found == NULL)
     return sphi_fail(ctx, SPH_ERR_ARG, "%s is NULL", point == NULL ? "point" : "found");
   if (capacity < 0 || (capacity > 0 && indices == NULL))

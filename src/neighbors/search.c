@@ -24,8 +24,7 @@ static void box_of_rows(sphi_group *g, int axis) {
 static double bound_of_rows(const sphi_group *g) {
   const double *s = g->l->s;
   double bound = s[g->begin];
-  for (int64_t i = g->begin + 1; i < g->end; i++)
-    bound = sphi_rule_bound(&g->l->rule, bound, s[i]);
+  for (int64_t i = g->begin + 1; i < g->end; i++) bound = sphi_rule_bound(&g->l->rule, bound, s[i]);
   return bound;
 }
 
@@ -85,15 +84,14 @@ uint32_t sphi_exact_lanes(const sphi_layout *l, int64_t i, const uint32_t *index
   return kept;
 }
 
-static void gather_exact(const sphi_group *g, const sphi_range *r, int count,
-                         sphi_candidates *c) {
+static void gather_exact(const sphi_group *g, const sphi_range *r, int count, sphi_candidates *c) {
   (void)g;
   for (int k = 0; k < count; k++)
     for (uint32_t j = r[k].begin; j < r[k].end; j++) c->index[c->count++] = j;
 }
 
-static int64_t rows_exact(const sphi_group *g, sphi_candidates *c, uint32_t *out,
-                          int64_t capacity, int64_t *used, int64_t *start) {
+static int64_t rows_exact(const sphi_group *g, sphi_candidates *c, uint32_t *out, int64_t capacity,
+                          int64_t *used, int64_t *start) {
   for (int64_t i = g->begin; i < g->end; i++) {
     int64_t at = *used;
     if (at + c->count > capacity) return i - g->begin;

@@ -15,7 +15,7 @@ enum { SPHI_CANDIDATE_PADDING = 16 };
 
 typedef struct sphi_candidates {
   float *x[3], *s;
-  uint32_t *index; /* sweep positions, ascending */
+  uint32_t *index;  /* sweep positions, ascending */
   uint32_t *row[3]; /* room for as many indices: rows that are found at the same time */
   int64_t count;
   int64_t capacity; /* SPHI_CANDIDATE_PADDING more can be written */
@@ -23,14 +23,14 @@ typedef struct sphi_candidates {
 
 typedef struct sphi_group {
   const sphi_layout *l;
-  int64_t begin, end; /* rows */
+  int64_t begin, end;        /* rows */
   double center[3], half[3]; /* box of the rows */
-  double s;           /* bound of their s */
-  int single;         /* 0: only the exact test is possible */
-  int narrow;         /* a periodic box so narrow that each row has images of its own */
-  float period[3];    /* 0 on open axes */
-  float box[3];       /* half widths, rounded up */
-  float low, high;    /* uniform: bounds of the squared distance */
+  double s;                  /* bound of their s */
+  int single;                /* 0: only the exact test is possible */
+  int narrow;                /* a periodic box so narrow that each row has images of its own */
+  float period[3];           /* 0 on open axes */
+  float box[3];              /* half widths, rounded up */
+  float low, high;           /* uniform: bounds of the squared distance */
   float doubt_linear, doubt_constant;
   float skin, s_group;
 } sphi_group;
@@ -51,8 +51,8 @@ uint32_t sphi_exact_lanes(const sphi_layout *l, int64_t i, const uint32_t *index
 /* Append the candidates of some ranges; the caller has made sure that all would fit. */
 typedef void (*sphi_gather_fn)(const sphi_group *g, const sphi_range *r, int count,
                                sphi_candidates *c);
-/* Rows of the group into out[0 .. capacity): start[i] = base + its offset there, for as many rows as
- * surely fit. Returns the rows done; *used grows. */
+/* Rows of the group into out[0 .. capacity): start[i] = base + its offset there, for as many rows
+ * as surely fit. Returns the rows done; *used grows. */
 typedef int64_t (*sphi_rows_fn)(const sphi_group *g, sphi_candidates *c, uint32_t *out,
                                 int64_t capacity, int64_t *used, int64_t *start);
 

@@ -12,9 +12,9 @@
 #include <string.h>
 
 enum {
-  SUBTREE = 4096,    /* particles a subtree holds, about */
+  SUBTREE = 4096, /* particles a subtree holds, about */
   MAX_LEVELS = 10,
-  SAMPLE_EACH = 32,  /* samples a subtree */
+  SAMPLE_EACH = 32, /* samples a subtree */
   GRAIN = 8192
 };
 
@@ -99,8 +99,10 @@ static void select_middle(record *r, int64_t n, int64_t middle, int axis) {
   while (lo < hi && work > 0) {
     work -= hi - lo;
     int64_t cut = partition(r, lo, hi, axis);
-    if (middle <= cut) hi = cut;
-    else lo = cut + 1;
+    if (middle <= cut)
+      hi = cut;
+    else
+      lo = cut + 1;
   }
 }
 
@@ -399,8 +401,10 @@ uint32_t sphi_tree_leaf_at(const sphi_tree *t, uint32_t position) {
   uint32_t lo = 0, hi = t->leaf_count;
   while (hi - lo > 1) {
     uint32_t mid = lo + (hi - lo) / 2;
-    if (t->leaf[mid] <= position) lo = mid;
-    else hi = mid;
+    if (t->leaf[mid] <= position)
+      lo = mid;
+    else
+      hi = mid;
   }
   return lo;
 }
@@ -412,9 +416,8 @@ static uint32_t boxes_near(const sphi_walk *w, int level, uint32_t block) {
   return left < 8 ? mask & ((1u << left) - 1u) : mask;
 }
 
-void sphi_walk_begin(sphi_walk *w, const sphi_tree *t, const sphi_rule *rule,
-                     sphi_boxes_fn near, const double center[3], const double half[3], double s,
-                     double radius) {
+void sphi_walk_begin(sphi_walk *w, const sphi_tree *t, const sphi_rule *rule, sphi_boxes_fn near,
+                     const double center[3], const double half[3], double s, double radius) {
   double reach = (radius >= 0.0 ? radius : rule->cut) * SPHI_REACH_MARGIN;
   w->near = near;
   w->tree = t;
@@ -448,8 +451,10 @@ int sphi_walk_ranges(sphi_walk *w, sphi_range *out) {
       w->mask[w->at] = boxes_near(w, w->at, box);
       continue;
     }
-    if (n > 0 && out[n - 1].end == t->leaf[box]) out[n - 1].end = t->leaf[box + 1];
-    else out[n++] = (sphi_range){t->leaf[box], t->leaf[box + 1]};
+    if (n > 0 && out[n - 1].end == t->leaf[box])
+      out[n - 1].end = t->leaf[box + 1];
+    else
+      out[n++] = (sphi_range){t->leaf[box], t->leaf[box + 1]};
   }
   return n;
 }

@@ -139,8 +139,7 @@ static void test_bad_particles(void **state) {
     check_status(sph_neighbors_build_arrays(list, 3, N, positions, NULL, 0.0), SPH_ERR_ARG);
     check_status(sph_neighbors_build_arrays(list, 4, N, positions, h, 0.0), SPH_ERR_ARG);
     check_status(sph_neighbors_build_arrays(list, 3, -1, positions, h, 0.0), SPH_ERR_ARG);
-    check_status(sph_neighbors_build_arrays(list, 3, INT64_MAX, positions, h, 0.0),
-                 SPH_ERR_LIMIT);
+    check_status(sph_neighbors_build_arrays(list, 3, INT64_MAX, positions, h, 0.0), SPH_ERR_LIMIT);
     assert_int_equal(sph_neighbors_pairs(list), pairs);
     assert_int_equal(sph_neighbors_builds(list), 1);
     sph_neighbors_destroy(list);
@@ -278,8 +277,10 @@ static sph_status failing_builds(sph_context *ctx, void *user) {
     positions[0] += 1e-5;
     s = sph_neighbors_update_arrays(list, 3, N, positions, NULL, 0.1, &rebuilt);
     positions[0] -= 1e-5;
-    if (s == SPH_OK) s = sph_neighbors_rows(list, &offsets, &indices);
-    else assert_int_equal(rebuilt, 7);
+    if (s == SPH_OK)
+      s = sph_neighbors_rows(list, &offsets, &indices);
+    else
+      assert_int_equal(rebuilt, 7);
   }
   drop_rows(&before);
   sph_neighbors_destroy(list);
@@ -426,11 +427,16 @@ static void test_stop(void **state) {
 }
 
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(test_options),        cmocka_unit_test(test_null_and_unbuilt),
-    cmocka_unit_test(test_bad_particles),  cmocka_unit_test(test_narrow_box),
-    cmocka_unit_test(test_max_pairs),      cmocka_unit_test(test_failing_memory),
-    cmocka_unit_test(test_failing_rebuild), cmocka_unit_test(test_steady_state),
-    cmocka_unit_test(test_sets),           cmocka_unit_test(test_stop),
+    cmocka_unit_test(test_options),
+    cmocka_unit_test(test_null_and_unbuilt),
+    cmocka_unit_test(test_bad_particles),
+    cmocka_unit_test(test_narrow_box),
+    cmocka_unit_test(test_max_pairs),
+    cmocka_unit_test(test_failing_memory),
+    cmocka_unit_test(test_failing_rebuild),
+    cmocka_unit_test(test_steady_state),
+    cmocka_unit_test(test_sets),
+    cmocka_unit_test(test_stop),
 };
 
 SPH_TEST_MAIN(tests)

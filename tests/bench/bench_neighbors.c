@@ -105,8 +105,8 @@ static int measure(const setup *s, const double *x, const double *h, int64_t n, 
   if (!failed)
     printf("BENCH case=%s dim=%d n=%lld threads=%d isa=%s neighbours=%.1f mpairs_per_s=%.1f "
            "ns_per_pair=%.3f seconds=%.4f bytes_per_particle=%.0f order=%s\n",
-           s->name, (int)s->dim, (long long)n, (int)threads, sph_isa_name(isa),
-           pairs / (double)n, pairs / t * 1e-6, t / pairs * 1e9, t, (double)peak / (double)n,
+           s->name, (int)s->dim, (long long)n, (int)threads, sph_isa_name(isa), pairs / (double)n,
+           pairs / t * 1e-6, t / pairs * 1e9, t, (double)peak / (double)n,
            s->shuffled ? "shuffled" : "spatial");
   fflush(stdout);
   sph_neighbors_destroy(list);
