@@ -70,39 +70,51 @@ static int widest_axis(const record *r, int64_t n, int dim) {
 }
 
 static double median3(double a, double b, double c) {
-  return fmax(fmin(a, b), fmin(fmax(a, b), c));
+  double lo = a < b ? a : b, hi = a < b ? b : a;
+  return c < lo ? lo : c > hi ? hi : c;
 }
 
-static void swap_records(record *a, record *b) {
-  record t = *a;
-  *a = *b;
-  *b = t;
-}
-
-/* Hoare's partition of [lo, hi]: [lo, result] <= pivot <= [result + 1, hi]. */
-static int64_t partition(record *r, int64_t lo, int64_t hi, int axis) {
-  double pivot = median3(r[lo].x[axis], r[lo + (hi - lo) / 2].x[axis], r[hi].x[axis]);
-  int64_t i = lo - 1, j = hi + 1;
-  for (;;) {
-    do i++;
-    while (r[i].x[axis] < pivot);
-    do j--;
-    while (r[j].x[axis] > pivot);
-    if (i >= j) return j < hi ? j : hi - 1;
-    swap_records(&r[i], &r[j]);
+/* Near the median: of three, or of nine. */
+static double choose_pivot(const record *r, int64_t n, int axis) {
+  int64_t step = n / 9;
+  double m[3];
+  if (n < 64) return median3(r[0].x[axis], r[n / 2].x[axis], r[n - 1].x[axis]);
+  for (int64_t k = 0; k < 3; k++) {
+    const record *q = r + k * 3 * step;
+    m[k] = median3(q[0].x[axis], q[step].x[axis], q[2 * step].x[axis]);
   }
+  return median3(m[0], m[1], m[2]);
+}
+
+/* Records below the pivot to the front (or_equal: those not above it); returns how many. Each is
+ * exchanged whether or not it must be: cheaper than a branch that cannot be predicted. */
+static int64_t partition(record *r, int64_t n, int axis, double pivot, int or_equal) {
+  int64_t kept = 0;
+  for (int64_t k = 0; k < n; k++) {
+    record t = r[k];
+    r[k] = r[kept];
+    r[kept] = t;
+    kept += or_equal ? t.x[axis] <= pivot : t.x[axis] < pivot;
+  }
+  return kept;
 }
 
 /* Bring the median to the middle. Gives up when that gets expensive: any order is right. */
 static void select_middle(record *r, int64_t n, int64_t middle, int axis) {
-  int64_t lo = 0, hi = n - 1, work = 16 * n;
-  while (lo < hi && work > 0) {
-    work -= hi - lo;
-    int64_t cut = partition(r, lo, hi, axis);
-    if (middle <= cut)
-      hi = cut;
-    else
-      lo = cut + 1;
+  int64_t work = 16 * n;
+  while (n > 1 && work > 0) {
+    double pivot = choose_pivot(r, n, axis);
+    int64_t below = partition(r, n, axis, pivot, 0);
+    work -= n;
+    if (middle < below) {
+      n = below;
+      continue;
+    }
+    if (below == 0) below = partition(r, n, axis, pivot, 1);
+    if (middle < below) return; /* among records equal to the pivot */
+    r += below;
+    n -= below;
+    middle -= below;
   }
 }
 
