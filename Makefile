@@ -229,7 +229,7 @@ record-abi: $(SO)
 
 # Some kernels lay out memory in a way that the sanitizers refuse; setarch -R avoids it.
 NO_ASLR := $(shell setarch -R true 2>/dev/null && echo setarch -R)
-SANITIZE = $(MAKE) BUILD='$(BUILD)-$(1)' CFLAGS='-O1 -g -fno-omit-frame-pointer $(2)' DEFS= \
+SANITIZE = $(MAKE) BUILD='$(BUILD)-$(1)' CFLAGS='-O1 -g -fno-omit-frame-pointer -DSPHI_FEW_INSTANCES $(2)' DEFS= \
   LDFLAGS='$(2)' WRAP='$(NO_ASLR)' TIMEOUT=1200
 
 check-asan:

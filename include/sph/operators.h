@@ -24,7 +24,7 @@ typedef struct sph_operands {
   size_t size;
   int32_t dim;
   int64_t n;        /* must equal the list's count */
-  int64_t rows;     /* results for i < rows only (ghosts stand last); default 0 = n */
+  int64_t rows;     /* results for i < rows only (ghosts stand last); default -1 = n */
   const double *x;  /* n * dim: positions now, within the list's skin of those it was built from */
   const double *v;  /* n * dim */
   const double *m;   double m0;

@@ -8,7 +8,9 @@
 
 void sph_operands_init_sized(sph_operands *operands, size_t size) {
   if (!operands || size < sizeof(size_t)) return;
+  sph_operands defaults = {.size = sizeof defaults, .rows = -1};
   memset(operands, 0, size);
+  memcpy(operands, &defaults, size < sizeof defaults ? size : sizeof defaults);
   operands->size = size;
 }
 
@@ -29,10 +31,10 @@ static sph_status check_sizes(sph_neighbors *list, const sph_kernel *kernel, sph
   if (a->dim != kernel->dim)
     return sphi_fail(ctx, SPH_ERR_ARG, "%s: operands are %d-D, the kernel is %d-D", name, a->dim,
                      kernel->dim);
-  if (a->n < 0 || a->rows < 0 || a->rows > a->n)
+  if (a->n < 0 || a->rows < -1 || a->rows > a->n)
     return sphi_fail(ctx, SPH_ERR_ARG, "%s: n = %lld, rows = %lld", name, (long long)a->n,
                      (long long)a->rows);
-  if (a->rows == 0) a->rows = a->n;
+  if (a->rows == -1) a->rows = a->n;
   if (list->options.support < kernel->support * (1.0 - 1e-12))
     return sphi_fail(ctx, SPH_ERR_ARG, "%s: the list reaches %g h, the kernel %g h", name,
                      list->options.support, kernel->support);
@@ -74,6 +76,7 @@ sph_status sphi_operator_begin(sph_neighbors *list, const sph_kernel *kernel,
   s = sphi_options_read(list->base.ctx, own, sizeof *own, a);
   if (!s) s = check_sizes(list, kernel, own, name);
   if (!s && own->n > 0) s = check_needs(list->base.ctx, own, needs, name);
+  if (!s && own->n > 0) s = sphi_neighbors_fresh(list, own->x, own->h, own->h0);
   return s;
 }
 

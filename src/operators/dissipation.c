@@ -21,6 +21,18 @@ sph_status sph_viscosity_monaghan(sph_neighbors *list, const sph_kernel *kernel,
   return sphi_sweep_run(list, &sweep);
 }
 
+enum { GRAIN = 8192 };
+
+typedef struct scale_job {
+  double *out, factor;
+} scale_job;
+
+static void scale_range(void *job, int64_t lo, int64_t hi, int32_t worker) {
+  const scale_job *j = job;
+  (void)worker;
+  for (int64_t k = lo; k < hi; ++k) j->out[k] *= j->factor;
+}
+
 sph_status sph_xsph(sph_neighbors *list, const sph_kernel *kernel, const sph_operands *a,
                     double epsilon, double *out) {
   sph_operands own;
@@ -32,7 +44,8 @@ sph_status sph_xsph(sph_neighbors *list, const sph_kernel *kernel, const sph_ope
   sphi_sweep sweep = sphi_sweep_of(kernel, &own, SPHI_XSPH);
   sweep.xsph = out;
   s = sphi_sweep_run(list, &sweep);
-  for (int64_t k = 0; !s && k < own.rows * own.dim; ++k) out[k] *= epsilon;
+  scale_job job = {out, epsilon};
+  if (!s) sphi_parallel(list->base.ctx, own.rows * own.dim, GRAIN, scale_range, &job);
   return s;
 }
 
@@ -54,19 +67,35 @@ static double scalar_at(const double *array, double uniform, int64_t i) {
   return array ? array[i] : uniform;
 }
 
+typedef struct bulk_job {
+  const sph_operands *a;
+  const sph_bulk_viscosity *o;
+  const double *gradv;
+  double *q;
+} bulk_job;
+
+/* Particles without a row have no velocity gradient: q = 0. */
+static void bulk_range(void *job, int64_t lo, int64_t hi, int32_t worker) {
+  const bulk_job *j = job;
+  const sph_operands *a = j->a;
+  int32_t d = a->dim;
+  (void)worker;
+  for (int64_t i = lo; i < hi; ++i) {
+    double div = 0.0;
+    for (int32_t k = 0; i < a->rows && k < d; ++k) div += j->gradv[i * d * d + k * d + k];
+    j->q[i] = sphi_bulk_pressure(j->o, div, scalar_at(a->h, a->h0, i),
+                                 scalar_at(a->rho, a->rho0, i), scalar_at(a->c, a->c0, i));
+  }
+}
+
 sph_status sphi_bulk_pressures(sph_neighbors *list, const sph_kernel *kernel,
                                const sph_operands *own, const sph_bulk_viscosity *o,
                                double *gradv, double *q) {
   sphi_sweep sweep = sphi_sweep_of(kernel, own, SPHI_GRADV);
-  int32_t d = own->dim;
+  bulk_job job = {own, o, gradv, q};
   sweep.gradv = gradv;
   sph_status s = sphi_sweep_run(list, &sweep);
-  for (int64_t i = 0; !s && i < own->n; ++i) {
-    double div = 0.0;
-    for (int32_t k = 0; i < own->rows && k < d; ++k) div += gradv[i * d * d + k * d + k];
-    q[i] = sphi_bulk_pressure(o, div, scalar_at(own->h, own->h0, i),
-                              scalar_at(own->rho, own->rho0, i), scalar_at(own->c, own->c0, i));
-  }
+  if (!s) sphi_parallel(list->base.ctx, own->n, GRAIN, bulk_range, &job);
   return s;
 }
 

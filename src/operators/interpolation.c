@@ -12,13 +12,28 @@ static sph_status check_field(sph_context *ctx, int32_t components, const double
 
 enum { SCRATCH_SHEPARD = 2 };
 
+enum { DIVIDE_GRAIN = 4096 };
+
+typedef struct divide_job {
+  double *out;
+  const double *by;
+  int32_t components;
+} divide_job;
+
+static void divide_range(void *job, int64_t lo, int64_t hi, int32_t worker) {
+  const divide_job *j = job;
+  (void)worker;
+  for (int64_t i = lo; i < hi; ++i)
+    for (int32_t c = 0; c < j->components; ++c) j->out[i * j->components + c] /= j->by[i];
+}
+
 static sph_status shepard_divide(sph_neighbors *list, const sph_kernel *kernel,
                                  const sph_operands *own, int32_t components, double *out) {
   sphi_sweep sweep = sphi_sweep_of(kernel, own, SPHI_SHEPARD);
   sweep.shepard = list->scratch[SCRATCH_SHEPARD].ptr;
   sph_status s = sphi_sweep_run(list, &sweep);
-  for (int64_t i = 0; !s && i < own->rows; ++i)
-    for (int32_t c = 0; c < components; ++c) out[i * components + c] /= sweep.shepard[i];
+  divide_job job = {out, sweep.shepard, components};
+  if (!s) sphi_parallel(list->base.ctx, own->rows, DIVIDE_GRAIN, divide_range, &job);
   return s;
 }
 

@@ -2,7 +2,6 @@
  * hook. */
 #include "rhs_impl.h"
 
-#include "../neighbors/layout.h"
 
 #include <string.h>
 
@@ -105,19 +104,10 @@ static sph_status run_hook(sphi_evaluation *e, sph_rhs_hook hook, void *user, co
                    answer, e->t);
 }
 
-/* Whether the list is of these positions. A list of arrays cannot be told apart. */
+/* A list that is not to be updated here must still hold. */
 static sph_status check_fresh(const sphi_evaluation *e) {
-  const struct sphi_neighbors_private *p = e->list->priv;
-  const sph_particles *set = e->set;
-  if (e->list->builds == 0 || !p->set || e->rhs->options.position_field != SPH_FIELD_X)
-    return SPH_OK;
-  if (p->set == (const void *)set && p->generation == sph_particles_generation(set) &&
-      p->revision_x == sph_particles_revision(set, SPH_FIELD_X) &&
-      p->revision_h == sph_particles_revision(set, SPH_FIELD_H))
-    return SPH_OK;
-  return sphi_fail(e->rhs->base.ctx, SPH_ERR_STALE,
-                   "sph_rhs_evaluate: the set changed after the list was built, and the list is "
-                   "not to be updated here");
+  sph_status s = sphi_neighbors_check(e->list, e->dim, e->a.n);
+  return s || e->a.n == 0 ? s : sphi_neighbors_fresh(e->list, e->a.x, e->a.h, e->a.h0);
 }
 
 static sph_status update_list(sphi_evaluation *e) {

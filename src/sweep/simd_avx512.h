@@ -40,7 +40,7 @@ SPHI_INLINE vd v_length(vd r2, vd *inverse) {
 }
 
 SPHI_INLINE vm v_lt(vd a, vd b) { return _mm512_cmp_pd_mask(a, b, _CMP_LT_OQ); }
-SPHI_INLINE vm v_first(int64_t n) { return n >= 8 ? (vm)0xff : (vm)((1u << n) - 1u); }
+SPHI_INLINE vm v_first(int64_t n) { return (vm)(n >= 8 ? 0xffu : (1u << n) - 1u); }
 SPHI_INLINE vd v_keep(vm m, vd a) { return _mm512_maskz_mov_pd(m, a); }
 SPHI_INLINE vd v_select(vm m, vd a, vd b) { return _mm512_mask_mov_pd(b, m, a); }
 SPHI_INLINE int v_any(vm m) { return m != 0; }

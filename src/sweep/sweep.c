@@ -45,7 +45,7 @@ static void set_constants(sphi_run *run) {
   run->m0 = a->m && a->n > 0 ? a->m[0] : a->m0;
   run->h0 = a->h && a->n > 0 ? a->h[0] : a->h0;
   run->c0 = a->c && a->n > 0 ? a->c[0] : a->c0;
-  run->rows = a->rows > 0 ? a->rows : a->n;
+  run->rows = a->rows;
   run->h_rule = run->list->options.h_rule;
 }
 

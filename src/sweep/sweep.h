@@ -62,7 +62,6 @@ typedef struct sphi_sweep {
   int64_t interp_stride;
   double *gradf;            /* gradf_stride doubles a particle */
   int64_t gradf_stride;
-  int32_t frozen;           /* positions are a reference configuration: the list was built from it */
 } sphi_sweep;
 
 /* Run a sweep over the list. Inputs were checked by the caller as far as pointers go; here: list built, sizes,

@@ -4,4 +4,6 @@
 #endif
 #include "rows.inc"
 
+#include "instances.inc"
+
 sphi_rows_fn sphi_rows_avx2(sphi_spec *spec, int32_t dim) { return find_rows(spec, dim); }

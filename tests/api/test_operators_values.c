@@ -55,7 +55,7 @@ static void compare(const oc_particles *s, int32_t type, int32_t rule, int corre
   ref_system system = ref_build(&particles);
   sph_operands a;
   oc_operands(s, corrected, &a);
-  a.rows = rows == s->n ? 0 : rows;
+  a.rows = rows == s->n ? -1 : rows;
   assert_true(system.count > 0);
   for (int k = 0; k < OC_CASES; k++) {
     const oc_case *op = &oc_cases[k];
