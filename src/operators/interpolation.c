@@ -138,22 +138,25 @@ static sph_status check_points(sph_context *ctx, int64_t np, int32_t dim, const 
   return SPH_OK;
 }
 
-static sph_status run_points(sph_context *ctx, points_job *job, int64_t np) {
-  enum { GRAIN = 64 };
+static sph_status run_points(sph_neighbors *list, points_job *job, int64_t np) {
+  enum { GRAIN = 64, SCRATCH_COUNTS = 1, SCRATCH_NEAR = 3 };
+  sph_context *ctx = list->base.ctx;
   int32_t workers = sphi_workers(ctx);
   size_t count_bytes = sphi_mul((size_t)workers, sizeof(int64_t));
-  count_job count = {job, sphi_calloc(ctx, count_bytes)};
-  if (!count.most) return SPH_ERR_NOMEM;
+  sphi_buffer *counts = &list->scratch[SCRATCH_COUNTS], *near = &list->scratch[SCRATCH_NEAR];
+  sph_status s = sphi_buffer_reserve(ctx, counts, count_bytes);
+  if (s) return s;
+  count_job count = {job, counts->ptr};
+  memset(count.most, 0, count_bytes);
   sphi_parallel(ctx, np, GRAIN, count_range, &count);
   job->room = 1;
   for (int32_t w = 0; w < workers; ++w)
     if (count.most[w] > job->room) job->room = count.most[w];
-  sphi_free(ctx, count.most, count_bytes);
   size_t bytes = sphi_mul(sphi_mul((size_t)workers, (size_t)job->room), sizeof(int32_t));
-  job->near = sphi_alloc(ctx, bytes);
-  if (!job->near) return SPH_ERR_NOMEM;
+  s = sphi_buffer_reserve(ctx, near, bytes);
+  if (s) return s;
+  job->near = near->ptr;
   sphi_parallel(ctx, np, GRAIN, interpolate_range, job);
-  sphi_free(ctx, job->near, bytes);
   return SPH_OK;
 }
 
@@ -168,5 +171,5 @@ sph_status sph_interpolate_at(sph_neighbors *list, const sph_kernel *kernel,
   if (!s) s = check_points(list->base.ctx, np, own.dim, points);
   if (s || np == 0) return s;
   points_job job = {list, kernel, &own, shepard, components, points, f, out, NULL, 0};
-  return run_points(list->base.ctx, &job, np);
+  return run_points(list, &job, np);
 }

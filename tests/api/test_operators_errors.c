@@ -548,6 +548,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_operands_from_set),
     cmocka_unit_test(test_out_of_memory),
     cmocka_unit_test(test_matrix_out_of_memory),
+    cmocka_unit_test(test_stale),
     cmocka_unit_test(test_steady),
 };
 SPH_TEST_MAIN(tests)
