@@ -126,9 +126,9 @@ SPH_API sph_status sph_interpolate(sph_neighbors *list, const sph_kernel *kernel
                                    const double *f, double *out);
 
 /* The same at np points (np * dim), with the h of each contributing particle whatever the list's
- * rule. A point without neighbours gets 0. out: np * components. Scratch is allocated and given
- * back: 4 bytes a worker for each neighbour of the fullest point. O(np * neighbours).
- * SPH_ERR_ARG also: np < 0, points NULL, a point not finite (the first is named). Since 0.1. */
+ * rule. A point without neighbours gets 0. out: np * components. Scratch: 4 bytes a worker for each
+ * neighbour of the fullest point. O(np * neighbours). SPH_ERR_ARG also: np < 0, points NULL, a
+ * point not finite (the first is named). Since 0.1. */
 SPH_API sph_status sph_interpolate_at(sph_neighbors *list, const sph_kernel *kernel,
                                       const sph_operands *a, int32_t shepard, int64_t np,
                                       const double *points, int32_t components, const double *f,
