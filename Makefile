@@ -104,7 +104,7 @@ ALL_BIN := $(UNIT_BIN) $(API_BIN) $(BENCH_BIN) $(EXAMPLE_BIN) $(CASE_BIN)
 HEADERS := $(sort $(wildcard include/sph/*.h))
 
 .PHONY: all lib examples tests demo check check-long validate validate-long bench symbols \
-  check-headers check-symbols check-layers check-abi record-abi check-asan check-tsan \
+  check-headers check-symbols check-layers check-readme check-abi record-abi check-asan check-tsan \
   check-valgrind check-install format check-format install uninstall clean help FORCE
 .DELETE_ON_ERROR:
 .SECONDARY:
@@ -219,6 +219,9 @@ check-symbols: $(SO)
 check-layers:
 	@tests/tools/check_layers.sh
 
+check-readme: $(BUILD)/examples/first_steps
+	@tests/tools/check_readme.sh $(abspath $<)
+
 check-abi: $(SO)
 	$(call need,abidiff,abigail-tools)
 	@tests/tools/check_abi.sh check $(SO)
@@ -287,6 +290,7 @@ help:
 	@echo 'make check-headers  each public header alone, as C11 and C++11'
 	@echo 'make check-symbols  exported names and needed libraries'
 	@echo 'make check-layers   no include goes upward'
+	@echo 'make check-readme   its program is the example and prints what it says'
 	@echo 'make check-abi      against the recorded ABI; record-abi records it'
 	@echo 'make symbols        rewrite lib/libsph.map and lib/abi/symbols.txt from the headers'
 	@echo 'make check-asan check-tsan check-valgrind   the tests under sanitizers'
