@@ -1,0 +1,248 @@
+/* Speed of the sums over pairs, through the public calls: composed right-hand sides and single
+ * operators, packing and unpacking included, lists built before and reused.
+ *
+ *   bench_rhs [n] [repetitions] [large]
+ *
+ * n: particles, 1 million by default. large: also 10 million in 3-D. */
+#include "bench.h"
+
+#include "bench_cases.h"
+#include "bench_scalar.h"
+
+static int repetitions = BENCH_REPETITIONS;
+
+/* --- the plain loop ----------------------------------------------------------------------- */
+
+typedef struct scalar_result {
+  double rate[BENCH_CASES]; /* pairs per second */
+  double difference[BENCH_CASES];
+} scalar_result;
+
+static double difference(const double *a, const double *b, int64_t n) {
+  double most = 0.0, size = 0.0;
+  for (int64_t i = 0; i < n; i++) {
+    most = fmax(most, fabs(a[i] - b[i]));
+    size = fmax(size, fabs(b[i]));
+  }
+  return most / size;
+}
+
+static void scalar_open(scalar_job *j, bench_set *s) {
+  int64_t n = s->n, d = s->setup.dim, sym = sph_sym_components(s->setup.dim);
+  memset(j, 0, sizeof *j);
+  sph_operands_init(&j->a);
+  BENCH_OK(sph_operands_from_set(s->set, &j->a), s->ctx);
+  BENCH_OK(sph_neighbors_rows(s->list, &j->offsets, &j->indices), s->ctx);
+  j->alpha = bench_alpha;
+  j->beta = bench_beta;
+  j->art_epsilon = bench_art_epsilon;
+  j->art_ratio = bench_art_ratio;
+  j->f = j->a.p;
+  j->pr = bench_alloc(n, sizeof(double));
+  j->matrix = bench_alloc(n * d * d, sizeof(double));
+  j->art = bench_alloc(n * sym, sizeof(double));
+  j->drho = bench_alloc(n, sizeof(double));
+  j->dvdt = bench_alloc(n * d, sizeof(double));
+  j->gradv = bench_alloc(n * d * d, sizeof(double));
+  j->grad = bench_alloc(n * sym, sizeof(double));
+}
+
+static void scalar_close(scalar_job *j) {
+  free(j->pr);
+  free(j->matrix);
+  free(j->art);
+  free(j->drho);
+  free(j->dvdt);
+  free(j->gradv);
+  free(j->grad);
+}
+
+/* The velocity gradient of the plain loop, through the material. */
+static double stress_rate_difference(bench_work *w, scalar_job *j) {
+  sph_material_block b;
+  bench_set *s = w->s;
+  int64_t n = s->n * sph_sym_components(s->setup.dim);
+  sph_material *solid = bench_solid(s);
+  sph_material_block_init(&b);
+  b.dim = s->setup.dim;
+  b.n = s->n;
+  b.velocity_gradient = j->gradv;
+  b.sigma = j->a.sigma;
+  BENCH_OK(sph_material_stress_rate(solid, &b, j->art), s->ctx);
+  sph_material_destroy(solid);
+  return difference(w->rates[1].values, j->art, n);
+}
+
+/* Whether both computed the same. */
+static double compare(bench_set *s, int which, scalar_job *j) {
+  bench_work w;
+  double d;
+  bench_work_open(&w, s, which);
+  bench_work_run(&w);
+  if (which == BENCH_DENSITY)
+    d = difference(w.out, j->drho, s->n);
+  else if (which == BENCH_GRADIENT)
+    d = difference(w.out, j->grad, s->n * s->setup.dim);
+  else if (which == BENCH_WCSPH)
+    d = fmax(difference(w.rates[0].values, j->dvdt, s->n * s->setup.dim),
+             difference(w.rates[1].values, j->drho, s->n));
+  else
+    d = fmax(difference(w.rates[0].values, j->dvdt, s->n * s->setup.dim),
+             stress_rate_difference(&w, j));
+  bench_work_close(&w);
+  return d;
+}
+
+static scalar_result time_scalar(int32_t dim, int64_t n, double h) {
+  static const bench_fn loops[BENCH_CASES] = {scalar_wcsph, scalar_elastic, scalar_cured,
+                                              scalar_density, scalar_gradient};
+  bench_setup setup = {.dim = dim, .n = n, .h = h, .threads = 1, .isa = bench_best_isa()};
+  scalar_result r;
+  bench_set s;
+  scalar_job j;
+  bench_open(&s, &setup);
+  bench_fill_all(&s);
+  scalar_open(&j, &s);
+  for (int k = 0; k < BENCH_CASES; k++) {
+    r.rate[k] = (double)s.pairs / bench_measure(loops[k], &j, BENCH_REPETITIONS).wall;
+    r.difference[k] = compare(&s, k, &j);
+    if (!(r.difference[k] < 1e-10)) {
+      printf("failed: %s differs from the plain loop by %g\n", bench_case[k].name, r.difference[k]);
+      exit(1);
+    }
+  }
+  scalar_close(&j);
+  bench_close(&s);
+  return r;
+}
+
+/* --- the library -------------------------------------------------------------------------- */
+
+static double bytes_per_particle(const bench_set *s) {
+  int64_t peak = 0;
+  BENCH_OK(sph_context_memory(s->ctx, NULL, &peak, NULL), s->ctx);
+  return (double)peak / (double)s->n;
+}
+
+static const char *threads_of(const bench_setup *u) {
+  return u->threads == 1 ? "none" : u->host ? "host" : "pool";
+}
+
+/* Cases 0 .. cases - 1 on one set. times (may be NULL) receives what they took. */
+static void run_cases(const bench_setup *setup, int cases, const scalar_result *scalar,
+                      bench_time *times) {
+  bench_set s;
+  bench_open(&s, setup);
+  bench_fill_all(&s);
+  for (int k = 0; k < cases; k++) {
+    bench_work w;
+    bench_line line = {.name = bench_case[k].name,
+                       .dim = setup->dim,
+                       .n = s.n,
+                       .threads = setup->threads,
+                       .isa = setup->isa,
+                       .pairs = (double)s.pairs,
+                       .scalar_rate = scalar ? scalar->rate[k] : 0.0};
+    bench_work_open(&w, &s, k);
+    line.time = bench_measure(bench_work_run, &w, repetitions);
+    line.bytes_per_particle = bytes_per_particle(&s);
+    bench_print(&line, "%s parallel=%s order=%s masses_and_h=%s", bench_case[k].extra,
+                threads_of(setup), setup->order == BENCH_SHUFFLED ? "shuffled" : "sorted",
+                setup->vary ? "vary" : "uniform");
+    if (times) times[k] = line.time;
+    bench_work_close(&w);
+  }
+  bench_close(&s);
+}
+
+/* Times of a over b: of the fastest repetitions, and of processor time, which other work on the
+ * machine disturbs less. With threads the latter is time of all of them, so 2.0 would be two
+ * threads that never wait or hinder each other. */
+static void ratio(const char *what, int32_t dim, int which, bench_time a, bench_time b,
+                  double threads) {
+  printf("BENCH case=ratio of=%s %s dim=%d what=%s value=%.3f by_cpu=%.3f\n",
+         bench_case[which].name, bench_case[which].extra, (int)dim, what, a.best / b.best,
+         a.cpu / b.cpu * threads);
+  fflush(stdout);
+}
+
+static void run_isas(const bench_setup *best, const scalar_result *scalar, const bench_time *time) {
+  bench_time other[BENCH_CASES];
+  for (int32_t isa = best->isa - 1; isa >= SPH_ISA_PORTABLE; isa--) {
+    bench_setup u = *best;
+    u.isa = isa;
+    if (!sph_isa_available(isa)) continue;
+    run_cases(&u, BENCH_CASES, scalar, other);
+    for (int k = 0; k < BENCH_CASES; k++)
+      ratio(isa == SPH_ISA_AVX2 ? "avx2_speed" : "portable_speed", u.dim, k, time[k], other[k], 1);
+  }
+}
+
+static void run_threads(const bench_setup *best, const scalar_result *scalar,
+                        const bench_time *time) {
+  bench_time other[BENCH_CASES];
+  for (int32_t host = 0; host < 2; host++) {
+    bench_setup u = *best;
+    u.threads = 2;
+    u.host = host;
+    run_cases(&u, BENCH_CASES, scalar, other);
+    for (int k = 0; k < BENCH_CASES; k++)
+      ratio(host ? "two_host_threads" : "two_threads", u.dim, k, time[k], other[k], 2);
+  }
+}
+
+static void run_dimension(int32_t dim, int64_t n) {
+  double h = bench_tune(dim, n, bench_usual_neighbours(dim));
+  bench_time best[BENCH_CASES], other[BENCH_CASES];
+  scalar_result scalar = time_scalar(dim, n, h);
+  bench_setup u = {.dim = dim, .n = n, .h = h, .threads = 1, .isa = bench_best_isa()};
+  printf("# %d-D: largest difference from the plain loop, relative to the largest rate:", (int)dim);
+  for (int k = 0; k < BENCH_CASES; k++) printf(" %.1e", scalar.difference[k]);
+  printf("\n");
+  run_cases(&u, BENCH_CASES, &scalar, best);
+  run_isas(&u, &scalar, best);
+  run_threads(&u, &scalar, best);
+  bench_setup shuffled = u, vary = u;
+  shuffled.order = BENCH_SHUFFLED;
+  run_cases(&shuffled, 2, &scalar, other);
+  for (int k = 0; k < 2; k++) ratio("shuffled_time", dim, k, other[k], best[k], 1);
+  vary.vary = 1;
+  run_cases(&vary, 3, NULL, other);
+  for (int k = 0; k < 3; k++) ratio("varying_time", dim, k, other[k], best[k], 1);
+}
+
+/* The same number of neighbours at every size. */
+static void run_scaling(int large) {
+  bench_time low[2], high[2];
+  for (int64_t n = 10000; n <= (large ? 10000000 : 1000000); n *= 10) {
+    bench_time t[BENCH_CASES];
+    bench_setup u = {.dim = 3, .n = n, .threads = 1, .isa = bench_best_isa()};
+    double side = (double)bench_side(n, 3), count = side * side * side;
+    u.h = bench_tune(3, n, bench_usual_neighbours(3));
+    run_cases(&u, 2, NULL, t);
+    for (int k = 0; k < 2; k++) {
+      bench_time each = {t[k].wall / count, t[k].best / count, t[k].cpu / count};
+      if (n == 10000) low[k] = high[k] = each;
+      if (each.cpu < low[k].cpu) low[k] = each;
+      if (each.cpu > high[k].cpu) high[k] = each;
+    }
+  }
+  for (int k = 0; k < 2; k++) ratio("scaling_time", 3, k, high[k], low[k], 1);
+}
+
+int main(int argc, char **argv) {
+  int64_t n = 1000000;
+  int large = 0, numbers = 0;
+  for (int k = 1; k < argc; k++) {
+    if (!strcmp(argv[k], "large"))
+      large = 1;
+    else if (numbers++ == 0)
+      n = atoll(argv[k]);
+    else
+      repetitions = atoi(argv[k]);
+  }
+  if (n < 1000 || repetitions < 1 || repetitions > BENCH_MOST) return 2;
+  for (int32_t dim = 3; dim >= 1; dim--) run_dimension(dim, n);
+  run_scaling(large);
+  return 0;
+}
