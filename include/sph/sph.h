@@ -5,6 +5,7 @@
 #include <sph/base.h>
 #include <sph/context.h>
 #include <sph/correction.h>
+#include <sph/elastic.h>
 #include <sph/integrator.h>
 #include <sph/kernel.h>
 #include <sph/material.h>

@@ -1,16 +1,16 @@
-/* Isotropic linear elasticity in rate form, with the Jaumann rate.
+/* Isotropic linear elasticity in rate form, with the Jaumann rate, and in total form.
  *
  * In every reduction the rate of the stored components is
  *     sigma'_aa = stiff * L_aa + cross * (sum of the other L_bb),   sigma'_ab = G (L_ab + L_ba)
  * and only `stiff` and `cross` differ. */
-#include "material_impl.h"
+#include "elastic_impl.h"
 
 #include <math.h>
 
 typedef struct hooke {
   sph_context *ctx;
-  double stiff, cross, shear;
-  double sound_speed;
+  sphi_moduli moduli;
+  double density;
   int32_t jaumann;
 } hooke;
 
@@ -20,45 +20,14 @@ void sph_hooke_options_init_sized(sph_hooke_options *options, size_t size) {
   sphi_material_init_sized(options, size, &defaults, sizeof defaults);
 }
 
-static int32_t reduction_dim(int32_t reduction) {
-  switch (reduction) {
-  case SPH_UNIAXIAL_STRESS:
-  case SPH_UNIAXIAL_STRAIN:
-    return 1;
-  case SPH_PLANE_STRESS:
-  case SPH_PLANE_STRAIN:
-    return 2;
-  case SPH_SOLID:
-    return 3;
-  default:
-    return 0;
-  }
-}
-
-static void set_moduli(hooke *law, const sph_hooke_options *o) {
-  const double e = o->young, nu = o->poisson;
-  law->shear = e / (2 * (1 + nu));
-  if (o->reduction == SPH_UNIAXIAL_STRESS) {
-    law->stiff = e;
-    law->cross = 0;
-  } else if (o->reduction == SPH_PLANE_STRESS) {
-    law->stiff = e / ((1 - nu) * (1 + nu));
-    law->cross = nu * law->stiff;
-  } else { /* no strain across: lambda + 2 mu and lambda */
-    law->cross = e * nu / ((1 + nu) * (1 - 2 * nu));
-    law->stiff = law->cross + 2 * law->shear;
-  }
-  law->sound_speed = sqrt(law->stiff / o->density);
-}
-
 static void rate_1d(const hooke *law, const sph_material_block *b, double *rate) {
-  for (int64_t i = 0; i < b->n; i++) rate[i] = law->stiff * b->velocity_gradient[i];
+  for (int64_t i = 0; i < b->n; i++) rate[i] = law->moduli.stiff * b->velocity_gradient[i];
 }
 
 static void elastic_2d(const hooke *law, const double l[4], double r[3]) {
-  r[0] = law->stiff * l[0] + law->cross * l[3];
-  r[1] = law->stiff * l[3] + law->cross * l[0];
-  r[2] = law->shear * (l[1] + l[2]);
+  r[0] = law->moduli.stiff * l[0] + law->moduli.cross * l[3];
+  r[1] = law->moduli.stiff * l[3] + law->moduli.cross * l[0];
+  r[2] = law->moduli.shear * (l[1] + l[2]);
 }
 
 /* r += omega s - s omega */
@@ -79,12 +48,12 @@ static void rate_2d(const hooke *law, const sph_material_block *b, double *rate)
 }
 
 static void elastic_3d(const hooke *law, const double l[9], double r[6]) {
-  r[0] = law->stiff * l[0] + law->cross * (l[4] + l[8]);
-  r[1] = law->stiff * l[4] + law->cross * (l[0] + l[8]);
-  r[2] = law->stiff * l[8] + law->cross * (l[0] + l[4]);
-  r[3] = law->shear * (l[1] + l[3]);
-  r[4] = law->shear * (l[2] + l[6]);
-  r[5] = law->shear * (l[5] + l[7]);
+  r[0] = law->moduli.stiff * l[0] + law->moduli.cross * (l[4] + l[8]);
+  r[1] = law->moduli.stiff * l[4] + law->moduli.cross * (l[0] + l[8]);
+  r[2] = law->moduli.stiff * l[8] + law->moduli.cross * (l[0] + l[4]);
+  r[3] = law->moduli.shear * (l[1] + l[3]);
+  r[4] = law->moduli.shear * (l[2] + l[6]);
+  r[5] = law->moduli.shear * (l[5] + l[7]);
 }
 
 /* r += omega s - s omega, written out for s = {xx, yy, zz, xy, xz, yz} */
@@ -120,7 +89,71 @@ static int32_t hooke_stress_rate(void *user, const sph_material_block *b, double
 
 static int32_t hooke_sound_speed(void *user, const sph_material_block *b, double *c) {
   const hooke *law = user;
-  for (int64_t i = 0; i < b->n; i++) c[i] = law->sound_speed;
+  for (int64_t i = 0; i < b->n; i++) c[i] = sqrt(law->moduli.stiff / law->density);
+  return 0;
+}
+
+static int32_t hooke_shear_speed(void *user, const sph_material_block *b, double *c) {
+  const hooke *law = user;
+  for (int64_t i = 0; i < b->n; i++) c[i] = sqrt(law->moduli.shear / law->density);
+  return 0;
+}
+
+/* ---- total form for small strains ---- */
+
+/* sigma = stiff, cross and 2G on the packed strain of one particle; `sigma` may be `strain` */
+static void total(const sphi_moduli *m, int32_t d, const double *strain, double *sigma) {
+  double trace = 0;
+  for (int32_t a = 0; a < d; a++) trace += strain[a];
+  for (int32_t c = 0; c < d * (d + 1) / 2; c++)
+    sigma[c] =
+        c < d ? m->stiff * strain[c] + m->cross * (trace - strain[c]) : 2 * m->shear * strain[c];
+}
+
+static int32_t hooke_small_strain_stress(void *user, const sph_material_block *b, double *sigma) {
+  const hooke *law = user;
+  const int32_t comps = b->dim * (b->dim + 1) / 2;
+  for (int64_t i = 0; i < b->n; i++)
+    total(&law->moduli, b->dim, b->strain + i * comps, sigma + i * comps);
+  return 0;
+}
+
+/* (F + F^T)/2 - I, packed */
+static void small_strain(int32_t d, const double *f, double *strain) {
+  for (int32_t a = 0; a < d; a++) strain[a] = f[a * (d + 1)] - 1;
+  if (d == 2) strain[2] = 0.5 * (f[1] + f[2]);
+  if (d < 3) return;
+  strain[3] = 0.5 * (f[1] + f[3]);
+  strain[4] = 0.5 * (f[2] + f[6]);
+  strain[5] = 0.5 * (f[5] + f[7]);
+}
+
+static int32_t hooke_cauchy(void *user, const sph_material_block *b, double *sigma) {
+  const hooke *law = user;
+  const int32_t d = b->dim, comps = d * (d + 1) / 2;
+  for (int64_t i = 0; i < b->n; i++) {
+    double strain[6];
+    small_strain(d, b->deformation_gradient + i * d * d, strain);
+    total(&law->moduli, d, strain, sigma + i * comps);
+  }
+  return 0;
+}
+
+static int32_t hooke_first_piola(void *user, const sph_material_block *b, double *p,
+                                 double *energy) {
+  static const int32_t at[4][9] = {{0}, {0}, {0, 2, 2, 1}, {0, 3, 4, 3, 1, 5, 4, 5, 2}};
+  const hooke *law = user;
+  const int32_t d = b->dim;
+  for (int64_t i = 0; i < b->n; i++) {
+    double strain[6], s[6], psi = 0;
+    small_strain(d, b->deformation_gradient + i * d * d, strain);
+    total(&law->moduli, d, strain, s);
+    for (int32_t k = 0; k < d * d; k++) {
+      p[i * d * d + k] = s[at[d][k]];
+      psi += 0.5 * s[at[d][k]] * strain[at[d][k]];
+    }
+    if (energy != NULL) energy[i] = psi;
+  }
   return 0;
 }
 
@@ -129,50 +162,41 @@ static void hooke_destroy(void *user) {
   sphi_free(law->ctx, law, sizeof *law);
 }
 
-static sph_status check_options(sph_context *ctx, const sph_hooke_options *o) {
-  if (!(o->young > 0) || !isfinite(o->young))
-    return sphi_fail(ctx, SPH_ERR_ARG, "hooke: young = %g is not positive and finite", o->young);
-  if (!(o->poisson > -1 && o->poisson < 0.5))
-    return sphi_fail(ctx, SPH_ERR_ARG, "hooke: poisson = %g is outside (-1, 0.5)", o->poisson);
-  if (!(o->density > 0) || !isfinite(o->density))
-    return sphi_fail(ctx, SPH_ERR_ARG, "hooke: density = %g is not positive and finite",
-                     o->density);
-  if (reduction_dim(o->reduction) == 0)
-    return sphi_fail(ctx, SPH_ERR_ARG, "hooke: unknown reduction %d", (int)o->reduction);
-  return SPH_OK;
-}
-
 static sph_status make(sph_context *ctx, const sph_hooke_options *o, sph_material **out) {
   hooke *law = sphi_calloc(ctx, sizeof *law);
   if (law == NULL) return SPH_ERR_NOMEM;
   law->ctx = ctx;
-  law->jaumann = o->jaumann != 0 && reduction_dim(o->reduction) > 1;
-  set_moduli(law, o);
+  law->jaumann = o->jaumann != 0 && sphi_reduction_dim(o->reduction) > 1;
+  law->moduli = sphi_moduli_of(o->young, o->poisson, o->reduction);
+  law->density = o->density;
   const sph_material_functions f = {.size = sizeof f,
                                     .stress_rate = hooke_stress_rate,
                                     .sound_speed = hooke_sound_speed,
+                                    .shear_speed = hooke_shear_speed,
+                                    .small_strain_stress = hooke_small_strain_stress,
+                                    .first_piola = hooke_first_piola,
+                                    .cauchy_stress = hooke_cauchy,
                                     .destroy = hooke_destroy};
   sph_status status = sphi_material_make(ctx, &f, law, out);
   if (status != SPH_OK) {
     sphi_free(ctx, law, sizeof *law);
     return status;
   }
-  (*out)->dim = reduction_dim(o->reduction);
+  (*out)->dim = sphi_reduction_dim(o->reduction);
   (*out)->needs[SPHI_MATERIAL_STRESS_RATE] =
       SPHI_NEEDS_GRADIENT | (law->jaumann ? (uint32_t)SPHI_NEEDS_SIGMA : 0u);
+  (*out)->needs[SPHI_MATERIAL_SMALL_STRAIN_STRESS] = SPHI_NEEDS_STRAIN;
+  (*out)->needs[SPHI_MATERIAL_FIRST_PIOLA] = SPHI_NEEDS_F;
+  (*out)->needs[SPHI_MATERIAL_CAUCHY_STRESS] = SPHI_NEEDS_F;
   return SPH_OK;
 }
 
 sph_status sph_material_create_hooke(sph_context *ctx, const sph_hooke_options *options,
                                      sph_material **out) {
-  if (out != NULL) *out = NULL;
-  sph_status status = sphi_check_handle(NULL, ctx, SPHI_MAGIC_CONTEXT, "ctx");
-  if (status != SPH_OK) return status;
-  if (out == NULL || options == NULL)
-    return sphi_fail(ctx, SPH_ERR_ARG, "hooke: %s is NULL", out == NULL ? "out" : "options");
   sph_hooke_options o = {.size = 0};
   sph_hooke_options_init(&o);
-  status = sphi_options_read(ctx, &o, sizeof o, options);
-  if (status == SPH_OK) status = check_options(ctx, &o);
+  sph_status status = sphi_material_begin(ctx, "hooke", &o, sizeof o, options, out);
+  if (status == SPH_OK)
+    status = sphi_elastic_check(ctx, "hooke", o.young, o.poisson, o.density, o.reduction);
   return status == SPH_OK ? make(ctx, &o, out) : status;
 }

@@ -5,6 +5,8 @@
 #include "../check.h"
 #include "../oom.h"
 
+#include <sph/elastic.h>
+
 static uint64_t random_state = 7;
 static double random_signed(void) { /* splitmix64, in (-1, 1) */
   uint64_t z = (random_state += UINT64_C(0x9e3779b97f4a7c15));
