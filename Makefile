@@ -7,6 +7,7 @@
 #   CASE=name               only this validation case
 #   CMOCKA=0                the built-in harness even where cmocka is installed
 #   JOBS=2                  test programs run at the same time
+#   BENCH_ARGS="only=wcsph_rhs dim=3 n=100000"   arguments of the benchmarks (tests/bench/bench_args.h)
 
 CC ?= cc
 CXX ?= c++
@@ -286,7 +287,7 @@ help:
 	@echo 'make demo           run the elastic bar'
 	@echo 'make check          every unit and api test; check-long: with larger sizes'
 	@echo 'make validate       every published case, CASE=name for one; validate-long'
-	@echo 'make bench          speed: one BENCH line a case'
+	@echo 'make bench          speed: one BENCH line a case; BENCH_ARGS="only=wcsph_rhs dim=3"'
 	@echo 'make check-headers  each public header alone, as C11 and C++11'
 	@echo 'make check-symbols  exported names and needed libraries'
 	@echo 'make check-layers   no include goes upward'

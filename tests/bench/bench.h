@@ -42,6 +42,12 @@ BENCH_FN void *bench_alloc(int64_t count, size_t size) {
   exit(1);
 }
 
+BENCH_FN int32_t bench_best_isa(void) {
+  int32_t isa = SPH_ISA_AVX512;
+  while (isa > SPH_ISA_PORTABLE && !sph_isa_available(isa)) isa--;
+  return isa;
+}
+
 /* --- clocks ------------------------------------------------------------------------------- */
 
 BENCH_FN double bench_clock(clockid_t clock) {

@@ -168,12 +168,6 @@ BENCH_FN double bench_tune(int32_t dim, int64_t n, double neighbours) {
 
 BENCH_FN double bench_usual_neighbours(int32_t dim) { return dim == 1 ? 5.5 : dim == 2 ? 28 : 74; }
 
-BENCH_FN int32_t bench_best_isa(void) {
-  int32_t isa = SPH_ISA_AVX512;
-  while (isa > SPH_ISA_PORTABLE && !sph_isa_available(isa)) isa--;
-  return isa;
-}
-
 /* --- right-hand sides --------------------------------------------------------------------- */
 
 enum { BENCH_WCSPH, BENCH_ELASTIC, BENCH_CURED, BENCH_DENSITY, BENCH_GRADIENT, BENCH_CASES };

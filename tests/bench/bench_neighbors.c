@@ -1,16 +1,12 @@
 /* Speed of neighbour lists from scratch: order, cells or tree, and pairs, each build anew.
  *
- *   bench_neighbors [n] [repetitions]
- *
- * A jittered lattice; medians. Pairs are counted once per direction. */
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-#include <time.h>
+ * A jittered lattice; medians. Pairs are counted once per direction. Arguments: bench_args.h;
+ * cases: list_cells, list_tree, with 1 million points. */
+#include "bench.h"
 
-#include <sph/context.h>
-#include <sph/neighbors.h>
+#include "bench_args.h"
+
+static bench_args args;
 
 typedef struct setup {
   const char *name;
@@ -26,12 +22,6 @@ static uint64_t seed = 7;
 static double uniform(void) {
   seed = seed * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
   return (double)(seed >> 11) * 0x1p-53;
-}
-
-static double now(void) {
-  struct timespec t;
-  clock_gettime(CLOCK_MONOTONIC, &t);
-  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
 /* A cubic lattice of spacing 1, each point moved by up to 0.3. */
@@ -69,37 +59,29 @@ static void lengths(const setup *s, const double *x, double *h, int64_t n) {
   }
 }
 
-static int compare(const void *a, const void *b) {
-  double p = *(const double *)a, q = *(const double *)b;
-  return (p > q) - (p < q);
-}
-
-static double median(double *v, int n) {
-  qsort(v, (size_t)n, sizeof *v, compare);
-  return v[n / 2];
-}
-
 static int measure(const setup *s, const double *x, const double *h, int64_t n, int32_t isa,
-                   int32_t threads, int repetitions) {
+                   int32_t threads) {
+  const int repetitions = args.repetitions;
   sph_context_options co;
   sph_neighbors_options no;
   sph_context *ctx = NULL;
   sph_neighbors *list = NULL;
-  double seconds[64];
+  double seconds[BENCH_MOST];
   sph_context_options_init(&co);
   co.threads = threads;
   co.isa = isa;
+  bench_pin(threads);
   if (sph_context_create(&co, &ctx) != SPH_OK) return 1;
   sph_neighbors_options_init(&no);
   no.method = s->method;
   int failed = sph_neighbors_create(ctx, &no, &list) != SPH_OK;
   for (int r = -1; r < repetitions && !failed; r++) {
-    double begin = now();
+    double begin = bench_now();
     failed = sph_neighbors_build_arrays(list, s->dim, n, x, h, 0.0) != SPH_OK;
-    if (r >= 0) seconds[r] = now() - begin;
+    if (r >= 0) seconds[r] = bench_now() - begin;
   }
   if (failed) printf("failed: %s\n", sph_context_last_error(ctx));
-  double t = median(seconds, repetitions), pairs = (double)sph_neighbors_pairs(list);
+  double t = bench_median(seconds, repetitions), pairs = (double)sph_neighbors_pairs(list);
   int64_t peak = 0;
   sph_context_memory(ctx, NULL, &peak, NULL);
   if (!failed)
@@ -114,7 +96,7 @@ static int measure(const setup *s, const double *x, const double *h, int64_t n, 
   return failed;
 }
 
-static int run(const setup *s, int repetitions) {
+static int run(const setup *s) {
   size_t n = (size_t)s->n + 2000;
   double *x = malloc(n * (size_t)s->dim * 2 * sizeof *x), *h = malloc(n * 2 * sizeof *h);
   int failed = x == NULL || h == NULL;
@@ -122,9 +104,12 @@ static int run(const setup *s, int repetitions) {
     int64_t count = lattice(s, x);
     if (s->shuffled) shuffle(x, count, s->dim);
     lengths(s, x, h, count);
-    for (int32_t isa = SPH_ISA_AVX512; isa >= SPH_ISA_PORTABLE && !failed; isa--)
-      for (int32_t threads = 1; threads <= 2 && sph_isa_available(isa) && !failed; threads++)
-        failed = measure(s, x, h, count, isa, threads, repetitions);
+    int32_t best = bench_best_isa(), threads = bench_threads(&args);
+    for (int32_t isa = best; isa >= SPH_ISA_PORTABLE && !failed; isa--) {
+      if (isa != best && !(sph_isa_available(isa) && bench_wants_isa(&args, isa))) continue;
+      failed = measure(s, x, h, count, isa, 1);
+      if (!failed && bench_wants_threads(&args)) failed = measure(s, x, h, count, isa, threads);
+    }
   }
   free(x);
   free(h);
@@ -132,8 +117,8 @@ static int run(const setup *s, int repetitions) {
 }
 
 int main(int argc, char **argv) {
-  int64_t n = argc > 1 ? atoll(argv[1]) : 1000000;
-  int repetitions = argc > 2 ? atoi(argv[2]) : 5;
+  args = bench_read_args(argc, argv);
+  const int64_t n = args.n ? args.n : 1000000;
   const setup setups[] = {
       {"list_cells", SPH_NEIGHBORS_CELLS, 3, n, 74, 1, 0},
       {"list_cells", SPH_NEIGHBORS_CELLS, 3, n, 62, 1, 0},
@@ -144,8 +129,11 @@ int main(int argc, char **argv) {
       {"list_tree", SPH_NEIGHBORS_TREE, 2, n, 28, 4, 0},
       {"list_tree", SPH_NEIGHBORS_TREE, 3, n, 74, 1, 0},
   };
-  if (n < 1 || repetitions < 1 || repetitions > 64) return 2;
-  for (size_t k = 0; k < sizeof setups / sizeof setups[0]; k++)
-    if (run(&setups[k], repetitions)) return 1;
+  for (size_t k = 0; k < sizeof setups / sizeof setups[0]; k++) {
+    setup s = setups[k];
+    if (!bench_wants(&args, s.name) || !bench_wants_dim(&args, s.dim)) continue;
+    if (args.neighbours > 0.0) s.neighbours = args.neighbours;
+    if (run(&s)) return 1;
+  }
   return 0;
 }

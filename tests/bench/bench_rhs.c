@@ -1,15 +1,21 @@
 /* Speed of the sums over pairs, through the public calls: composed right-hand sides and single
- * operators, packing and unpacking included, lists built before and reused.
- *
- *   bench_rhs [n] [repetitions] [large]
- *
- * n: particles, 1 million by default. large: also 10 million in 3-D. */
+ * operators, packing and unpacking included, lists built before and reused. Arguments:
+ * bench_args.h; cases: wcsph_rhs, elastic_rhs, density, gradient, with 1 million particles. */
 #include "bench.h"
 
+#include "bench_args.h"
 #include "bench_cases.h"
 #include "bench_scalar.h"
 
-static int repetitions = BENCH_REPETITIONS;
+static bench_args args;
+
+static int wanted(int which) {
+  return bench_wants(&args, bench_case[which].name) &&
+         bench_wants_form(&args, strchr(bench_case[which].extra, '=') + 1);
+}
+static double neighbours_of(int32_t dim) {
+  return args.neighbours > 0.0 ? args.neighbours : bench_usual_neighbours(dim);
+}
 
 /* --- the plain loop ----------------------------------------------------------------------- */
 
@@ -103,7 +109,9 @@ static scalar_result time_scalar(int32_t dim, int64_t n, double h) {
   bench_open(&s, &setup);
   bench_fill_all(&s);
   scalar_open(&j, &s);
+  memset(&r, 0, sizeof r);
   for (int k = 0; k < BENCH_CASES; k++) {
+    if (!wanted(k)) continue;
     r.rate[k] = (double)s.pairs / bench_measure(loops[k], &j, BENCH_REPETITIONS).wall;
     r.difference[k] = compare(&s, k, &j);
     if (!(r.difference[k] < 1e-10)) {
@@ -136,6 +144,7 @@ static void run_cases(const bench_setup *setup, int cases, const scalar_result *
   bench_fill_all(&s);
   for (int k = 0; k < cases; k++) {
     bench_work w;
+    if (!wanted(k)) continue;
     bench_line line = {.name = bench_case[k].name,
                        .dim = setup->dim,
                        .n = s.n,
@@ -144,7 +153,7 @@ static void run_cases(const bench_setup *setup, int cases, const scalar_result *
                        .pairs = (double)s.pairs,
                        .scalar_rate = scalar ? scalar->rate[k] : 0.0};
     bench_work_open(&w, &s, k);
-    line.time = bench_measure(bench_work_run, &w, repetitions);
+    line.time = bench_measure(bench_work_run, &w, args.repetitions);
     line.bytes_per_particle = bytes_per_particle(&s);
     bench_print(&line, "%s parallel=%s order=%s masses_and_h=%s", bench_case[k].extra,
                 threads_of(setup), setup->order == BENCH_SHUFFLED ? "shuffled" : "sorted",
@@ -160,6 +169,7 @@ static void run_cases(const bench_setup *setup, int cases, const scalar_result *
  * threads that never wait or hinder each other. */
 static void ratio(const char *what, int32_t dim, int which, bench_time a, bench_time b,
                   double threads) {
+  if (!wanted(which)) return;
   printf("BENCH case=ratio of=%s %s dim=%d what=%s value=%.3f by_cpu=%.3f\n",
          bench_case[which].name, bench_case[which].extra, (int)dim, what, a.best / b.best,
          a.cpu / b.cpu * threads);
@@ -171,7 +181,7 @@ static void run_isas(const bench_setup *best, const scalar_result *scalar, const
   for (int32_t isa = best->isa - 1; isa >= SPH_ISA_PORTABLE; isa--) {
     bench_setup u = *best;
     u.isa = isa;
-    if (!sph_isa_available(isa)) continue;
+    if (!sph_isa_available(isa) || !bench_wants_isa(&args, isa)) continue;
     run_cases(&u, BENCH_CASES, scalar, other);
     for (int k = 0; k < BENCH_CASES; k++)
       ratio(isa == SPH_ISA_AVX2 ? "avx2_speed" : "portable_speed", u.dim, k, time[k], other[k], 1);
@@ -183,44 +193,52 @@ static void run_threads(const bench_setup *best, const scalar_result *scalar,
   bench_time other[BENCH_CASES];
   for (int32_t host = 0; host < 2; host++) {
     bench_setup u = *best;
-    u.threads = 2;
+    u.threads = bench_threads(&args);
     u.host = host;
     run_cases(&u, BENCH_CASES, scalar, other);
     for (int k = 0; k < BENCH_CASES; k++)
-      ratio(host ? "two_host_threads" : "two_threads", u.dim, k, time[k], other[k], 2);
+      ratio(host ? "two_host_threads" : "two_threads", u.dim, k, time[k], other[k], u.threads);
   }
 }
 
+static void run_orders(const bench_setup *best, const scalar_result *scalar,
+                       const bench_time *time) {
+  bench_time other[BENCH_CASES];
+  bench_setup shuffled = *best, vary = *best;
+  shuffled.order = BENCH_SHUFFLED;
+  run_cases(&shuffled, 2, scalar, other);
+  for (int k = 0; k < 2; k++) ratio("shuffled_time", best->dim, k, other[k], time[k], 1);
+  vary.vary = 1;
+  run_cases(&vary, 3, NULL, other);
+  for (int k = 0; k < 3; k++) ratio("varying_time", best->dim, k, other[k], time[k], 1);
+}
+
 static void run_dimension(int32_t dim, int64_t n) {
-  double h = bench_tune(dim, n, bench_usual_neighbours(dim));
-  bench_time best[BENCH_CASES], other[BENCH_CASES];
+  double h = bench_tune(dim, n, neighbours_of(dim));
+  bench_time best[BENCH_CASES];
   scalar_result scalar = time_scalar(dim, n, h);
   bench_setup u = {.dim = dim, .n = n, .h = h, .threads = 1, .isa = bench_best_isa()};
   printf("# %d-D: largest difference from the plain loop, relative to the largest rate:", (int)dim);
-  for (int k = 0; k < BENCH_CASES; k++) printf(" %.1e", scalar.difference[k]);
+  for (int k = 0; k < BENCH_CASES; k++)
+    if (wanted(k)) printf(" %.1e", scalar.difference[k]);
   printf("\n");
   run_cases(&u, BENCH_CASES, &scalar, best);
   run_isas(&u, &scalar, best);
-  run_threads(&u, &scalar, best);
-  bench_setup shuffled = u, vary = u;
-  shuffled.order = BENCH_SHUFFLED;
-  run_cases(&shuffled, 2, &scalar, other);
-  for (int k = 0; k < 2; k++) ratio("shuffled_time", dim, k, other[k], best[k], 1);
-  vary.vary = 1;
-  run_cases(&vary, 3, NULL, other);
-  for (int k = 0; k < 3; k++) ratio("varying_time", dim, k, other[k], best[k], 1);
+  if (bench_wants_threads(&args)) run_threads(&u, &scalar, best);
+  if (bench_wants_variants(&args)) run_orders(&u, &scalar, best);
 }
 
 /* The same number of neighbours at every size. */
-static void run_scaling(int large) {
+static void run_scaling(void) {
   bench_time low[2], high[2];
-  for (int64_t n = 10000; n <= (large ? 10000000 : 1000000); n *= 10) {
+  for (int64_t n = 10000; n <= (args.longer ? 10000000 : 1000000); n *= 10) {
     bench_time t[BENCH_CASES];
     bench_setup u = {.dim = 3, .n = n, .threads = 1, .isa = bench_best_isa()};
     double side = (double)bench_side(n, 3), count = side * side * side;
-    u.h = bench_tune(3, n, bench_usual_neighbours(3));
+    u.h = bench_tune(3, n, neighbours_of(3));
     run_cases(&u, 2, NULL, t);
     for (int k = 0; k < 2; k++) {
+      if (!wanted(k)) continue;
       bench_time each = {t[k].wall / count, t[k].best / count, t[k].cpu / count};
       if (n == 10000) low[k] = high[k] = each;
       if (each.cpu < low[k].cpu) low[k] = each;
@@ -231,18 +249,12 @@ static void run_scaling(int large) {
 }
 
 int main(int argc, char **argv) {
-  int64_t n = 1000000;
-  int large = 0, numbers = 0;
-  for (int k = 1; k < argc; k++) {
-    if (!strcmp(argv[k], "large"))
-      large = 1;
-    else if (numbers++ == 0)
-      n = atoll(argv[k]);
-    else
-      repetitions = atoi(argv[k]);
-  }
-  if (n < 1000 || repetitions < 1 || repetitions > BENCH_MOST) return 2;
-  for (int32_t dim = 3; dim >= 1; dim--) run_dimension(dim, n);
-  run_scaling(large);
+  int any = 0;
+  args = bench_read_args(argc, argv);
+  for (int k = 0; k < BENCH_CASES; k++) any |= wanted(k);
+  if (!any) return 0;
+  for (int32_t dim = 3; dim >= 1; dim--)
+    if (bench_wants_dim(&args, dim)) run_dimension(dim, args.n ? args.n : 1000000);
+  if (args.n == 0 && bench_wants_variants(&args)) run_scaling();
   return 0;
 }

@@ -1,16 +1,16 @@
 /* Speed of whole steps: lists, right-hand side and integration, through the public calls.
  *
- *   bench_step [repetitions]
- *
  * A free block of fluid or solid on a jittered lattice, set moving by a smooth velocity field: the
  * fluid at a tenth of the speed of sound, the solid at a two-hundredth. Lists have a skin, which is
  * chosen by measurement. Beside the library's integrators stands a host that integrates by itself
- * with one evaluation a step (scheme=host: v += dt a, then x += dt v). */
+ * with one evaluation a step (scheme=host: v += dt a, then x += dt v).
+ * Arguments: bench_args.h; cases: step_wcsph, step_elastic. */
 #include "bench.h"
 
+#include "bench_args.h"
 #include "bench_cases.h"
 
-static int repetitions = BENCH_REPETITIONS;
+static bench_args args;
 
 enum { FLUID, SOLID };
 enum { EULER, LEAPFROG, HOST };
@@ -211,9 +211,9 @@ static int64_t allocations(const stepper *w) {
 static void print_profile(stepper *w, const step_setup *u, int scheme, double step, double builds,
                           double evaluations) {
   check_list(w);
-  double build = builds * bench_measure(build_list, w, repetitions).cpu;
-  double check = evaluations * bench_measure(check_list, w, repetitions).cpu;
-  double sums = evaluations * bench_measure(evaluate, w, repetitions).cpu;
+  double build = builds * bench_measure(build_list, w, args.repetitions).cpu;
+  double check = evaluations * bench_measure(check_list, w, args.repetitions).cpu;
+  double sums = evaluations * bench_measure(evaluate, w, args.repetitions).cpu;
   printf("BENCH case=%s_profile dim=%d n=%lld threads=%d scheme=%s list_build=%.3f "
          "list_check=%.3f pack_and_sums=%.3f integrate_and_rest=%.3f ns_per_particle_step=%.1f\n",
          u->name, (int)u->dim, (long long)w->s.n, (int)w->s.setup.threads, scheme_name[scheme],
@@ -228,7 +228,7 @@ static void run_steps(const step_setup *u, double h, double skin, int scheme, in
   steps(&w); /* every buffer gets its size */
   int64_t before = allocations(&w), builds = sph_neighbors_builds(w.s.list), peak = 0;
   w.steps = w.evaluations = 0;
-  bench_time t = bench_measure(steps, &w, repetitions);
+  bench_time t = bench_measure(steps, &w, args.repetitions);
   int64_t made = allocations(&w) - before;
   double count = (double)w.steps, evaluations = (double)w.evaluations / count;
   double rebuilt = (double)(sph_neighbors_builds(w.s.list) - builds) / count;
@@ -281,24 +281,29 @@ static double choose_skin(const step_setup *u, double h) {
 }
 
 /* The skin is chosen on the first, smaller set of each kind. */
-static void run_kind(const step_setup *u, int64_t large) {
-  step_setup big = *u;
-  double h = bench_tune(u->dim, u->n, u->neighbours), skin = choose_skin(u, h);
-  for (int scheme = EULER; scheme <= HOST; scheme++) run_steps(u, h, skin, scheme, 1);
-  run_steps(u, h, skin, HOST, 2);
-  if (large == 0) return;
-  big.n = large;
-  h = bench_tune(big.dim, big.n, big.neighbours);
-  run_steps(&big, h, skin, HOST, 1);
-  run_steps(&big, h, skin, HOST, 2);
+static void run_kind(const step_setup *kind, int64_t large) {
+  step_setup u = *kind;
+  int32_t threads = bench_threads(&args);
+  if (!bench_wants(&args, u.name) || !bench_wants_dim(&args, u.dim)) return;
+  if (args.n) u.n = args.n;
+  if (args.neighbours > 0.0) u.neighbours = args.neighbours;
+  double h = bench_tune(u.dim, u.n, u.neighbours);
+  double skin = args.skin >= 0.0 ? args.skin : choose_skin(&u, h);
+  for (int scheme = EULER; scheme <= HOST; scheme++)
+    if (bench_wants_scheme(&args, scheme_name[scheme])) run_steps(&u, h, skin, scheme, 1);
+  if (bench_wants_threads(&args)) run_steps(&u, h, skin, HOST, threads);
+  if (large == 0 || args.n || !bench_wants_variants(&args)) return;
+  u.n = large;
+  h = bench_tune(u.dim, u.n, u.neighbours);
+  run_steps(&u, h, skin, HOST, 1);
+  run_steps(&u, h, skin, HOST, threads);
 }
 
 int main(int argc, char **argv) {
   const step_setup fluid = {"step_wcsph", FLUID, 3, 100000, 63.0};
   const step_setup flat = {"step_wcsph", FLUID, 2, 100000, 25.0};
   const step_setup solid = {"step_elastic", SOLID, 3, 100000, 64.0};
-  for (int k = 1; k < argc; k++)
-    if (atoi(argv[k]) > 0 && atoi(argv[k]) <= BENCH_MOST) repetitions = atoi(argv[k]);
+  args = bench_read_args(argc, argv);
   run_kind(&fluid, 1000000);
   run_kind(&flat, 0);
   run_kind(&solid, 0);
