@@ -3,6 +3,7 @@
 #define SPH_ELASTIC_H
 
 #include <sph/material.h>
+#include <sph/stress.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -67,6 +68,36 @@ SPH_API void sph_hooke_options_init_sized(sph_hooke_options *options, size_t siz
 SPH_API sph_status sph_material_create_hooke(sph_context *ctx, const sph_hooke_options *options,
                                              sph_material **out);
 
+/* A time step of stresses outside any integrator, with the exact rotation of the frame:
+ *
+ *   sigma <- R2 (R2 sigma R2^T + dt sigma'(D)) R2^T,   R2 R2 = R,
+ *
+ * where sigma'(D) is the law's stress rate for the strain rate alone, without spin, and R the
+ * rotation of the step (stress.h). With the velocity gradient of the middle of the step, of second
+ * order; a rigid rotation changes no principal stress beyond rounding, however long the step. (The
+ * rate form in an integrator turns stresses as well as the integrator does; figures at
+ * sph_stress_rotate().) A law's own Jaumann switch makes no difference here.
+ *
+ *   block     velocity_gradient, and rho, e and others if the law needs them; its sigma is unread
+ *   rotation  SPH_ROTATION_EXPONENTIAL or SPH_ROTATION_CAYLEY; no difference in 1-D
+ *   sigma     n packed symmetric, advanced
+ *   across    NULL, or n: the stress across (sph_material_stress_rate_across()), advanced
+ *
+ * Serial, O(n), no memory; disjoint blocks may be run on several threads if no call fails. Errors
+ * as for sph_material_stress_rate(); SPH_ERR_ARG also for dt not finite, an unknown rotation.
+ * When a host's law fails, the particles before the failing run of 64 are already advanced.
+ * Since 0.1. */
+SPH_API sph_status sph_material_stress_update(const sph_material *material,
+                                              const sph_material_block *block, double dt,
+                                              int32_t rotation, double *sigma, double *across);
+
+/* Rate of the stress across in plane strain (zz) and uniaxial strain (yy = zz): lambda tr(D) for
+ * Hooke's law. rate: n. An elastic body needs it only for output; plasticity, which depends on it,
+ * keeps it as state. In plane and uniaxial stress it is 0. SPH_ERR_UNSUPPORTED: 3-D laws, laws
+ * without it. Other errors as for sph_material_stress_rate(). Since 0.1. */
+SPH_API sph_status sph_material_stress_rate_across(const sph_material *material,
+                                                   const sph_material_block *block, double *rate);
+
 /* Laws with a stored energy, for total-Lagrangian schemes. Both have Hooke's law as their limit
  * for small strains, with lambda = E nu/((1+nu)(1-2nu)) and mu = E/(2(1+nu)), and both are
  * objective: P(QF) = Q P(F) for every rotation Q.
@@ -108,7 +139,17 @@ SPH_API void sph_hyperelastic_options_init_sized(sph_hyperelastic_options *optio
  * psi/dF holds in every reduction. F = I gives zero to the bit; psi keeps its relative accuracy
  * for small strains.
  *
- * The wave speeds are those at rest, as for Hooke's law, at the density before the deformation.
+ * The wave speeds are per undeformed length and time, for steps of total-Lagrangian schemes, at
+ * the density before the deformation. Without deformation_gradient in the block they are those at
+ * rest, as for Hooke's law. With it, those of small waves on the present state along its principal
+ * directions i, the largest of
+ *
+ *   longitudinal  rho c^2 = d^2 psi / d l_i^2, l_i the principal stretches, psi reduced
+ *   shear         rho c^2 = (l_i psi_i - l_j psi_j)/(l_i^2 - l_j^2), psi_i = d psi / d l_i, j in
+ *                 the space of the reduction (R. Ogden, Non-Linear Elastic Deformations, 1984,
+ *                 6.4); shear_speed is of these alone, in 1-D sqrt(mu/rho)
+ *
+ * squares that are negative, where the material is not stable, left out; 0 when all are.
  *
  * *out is NULL on failure. SPH_ERR_ARG: constants out of range or not finite, an unknown law or
  * reduction. SPH_ERR_VERSION, SPH_ERR_NOMEM. Since 0.1. */

@@ -29,6 +29,7 @@ sphi_moduli sphi_moduli_of(double young, double poisson, int32_t reduction) {
   } else { /* no strain across: lambda + 2 mu and lambda */
     m.cross = young * nu / ((1 + nu) * (1 - 2 * nu));
     m.stiff = m.cross + 2 * m.shear;
+    m.across = m.cross;
   }
   return m;
 }

@@ -10,6 +10,7 @@
  * strains of the reduction), a shear stress 2 * shear * (shear strain). */
 typedef struct sphi_moduli {
   double stiff, cross, shear;
+  double across; /* stress across per trace of the strain: lambda, or 0 where it is free */
 } sphi_moduli;
 
 sphi_moduli sphi_moduli_of(double young, double poisson, int32_t reduction);

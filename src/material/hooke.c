@@ -87,6 +87,16 @@ static int32_t hooke_stress_rate(void *user, const sph_material_block *b, double
   return 0;
 }
 
+static int32_t hooke_rate_across(void *user, const sph_material_block *b, double *rate) {
+  const hooke *law = user;
+  const int32_t d = b->dim;
+  for (int64_t i = 0; i < b->n; i++) {
+    const double *l = b->velocity_gradient + i * d * d;
+    rate[i] = law->moduli.across * (d == 1 ? l[0] : l[0] + l[3]);
+  }
+  return 0;
+}
+
 static int32_t hooke_sound_speed(void *user, const sph_material_block *b, double *c) {
   const hooke *law = user;
   for (int64_t i = 0; i < b->n; i++) c[i] = sqrt(law->moduli.stiff / law->density);
@@ -173,6 +183,8 @@ static sph_status make(sph_context *ctx, const sph_hooke_options *o, sph_materia
                                     .stress_rate = hooke_stress_rate,
                                     .sound_speed = hooke_sound_speed,
                                     .shear_speed = hooke_shear_speed,
+                                    .stress_rate_across =
+                                        o->reduction == SPH_SOLID ? NULL : hooke_rate_across,
                                     .small_strain_stress = hooke_small_strain_stress,
                                     .first_piola = hooke_first_piola,
                                     .cauchy_stress = hooke_cauchy,
@@ -185,6 +197,7 @@ static sph_status make(sph_context *ctx, const sph_hooke_options *o, sph_materia
   (*out)->dim = sphi_reduction_dim(o->reduction);
   (*out)->needs[SPHI_MATERIAL_STRESS_RATE] =
       SPHI_NEEDS_GRADIENT | (law->jaumann ? (uint32_t)SPHI_NEEDS_SIGMA : 0u);
+  (*out)->needs[SPHI_MATERIAL_STRESS_RATE_ACROSS] = SPHI_NEEDS_GRADIENT;
   (*out)->needs[SPHI_MATERIAL_SMALL_STRAIN_STRESS] = SPHI_NEEDS_STRAIN;
   (*out)->needs[SPHI_MATERIAL_FIRST_PIOLA] = SPHI_NEEDS_F;
   (*out)->needs[SPHI_MATERIAL_CAUCHY_STRESS] = SPHI_NEEDS_F;

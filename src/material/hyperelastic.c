@@ -1,6 +1,7 @@
 /* Hyperelastic laws: St. Venant-Kirchhoff and compressible neo-Hookean.
  *
  * H = F - I carries the strains, so that nothing is lost to the 1 when they are small. */
+#include "../core/eigen.h"
 #include "elastic_impl.h"
 
 #include <math.h>
@@ -205,15 +206,83 @@ static int32_t hyper_cauchy(void *user, const sph_material_block *b, double *sig
   return 0;
 }
 
+/* ---- wave speeds ---- */
+
+/* Squared principal stretches: of C = F^T F. */
+static void principal(int32_t d, const double *f, double *squares) {
+  static const int32_t row[] = {0, 1, 2, 0, 0, 1}, column[] = {0, 1, 2, 1, 2, 2};
+  static const int32_t packed[4][6] = {{0}, {0}, {0, 1, 3}, {0, 1, 2, 3, 4, 5}};
+  double c[6] = {0};
+  for (int32_t k = 0; k < d * (d + 1) / 2; k++)
+    for (int32_t a = 0; a < d; a++)
+      c[k] += f[a * d + row[packed[d][k]]] * f[a * d + column[packed[d][k]]];
+  sphi_eigen_symmetric(d, c, squares, NULL);
+}
+
+/* rho c^2 of longitudinal waves: d^2 psi/d l^2, less what the free stretches across relieve */
+static double neo_hookean_modulus(const hyper *law, double square, const stretch *s) {
+  const double k = law->free, mu = law->mu, lambda = law->lambda;
+  const double log_j = s->log_det + k * s->across, t2 = exp(2 * s->across);
+  const double rest = mu - lambda * log_j, direct = mu + (rest + lambda) / square;
+  if (law->free == 0) return direct;
+  const double mixed2 = k * k * lambda * lambda / (square * t2);
+  return direct - mixed2 / (k * (mu + (rest + k * lambda) / t2));
+}
+
+typedef struct modulus {
+  double longitudinal, shear;
+} modulus;
+
+static modulus neo_hookean_waves(const hyper *law, const double *squares, const stretch *s) {
+  modulus m = {0, law->mu};
+  for (int32_t i = 0; i < law->dim; i++)
+    m.longitudinal = fmax(m.longitudinal, neo_hookean_modulus(law, squares[i], s));
+  return m;
+}
+
+static modulus venant_waves(const hyper *law, const double *squares) {
+  modulus m = {0, law->dim == 1 ? law->mu : 0};
+  const double mu = law->mu;
+  double twice_trace = 0;
+  for (int32_t i = 0; i < law->dim; i++) twice_trace += squares[i] - 1;
+  const double spherical = 0.5 * law->reduced * twice_trace;
+  for (int32_t i = 0; i < law->dim; i++) {
+    double stress = spherical + mu * (squares[i] - 1);
+    m.longitudinal = fmax(m.longitudinal, stress + squares[i] * (law->reduced + 2 * mu));
+    for (int32_t j = 0; j < i; j++)
+      m.shear = fmax(m.shear, spherical - mu + mu * (squares[i] + squares[j]));
+  }
+  return m;
+}
+
+static modulus waves(const hyper *law, const double *f) {
+  double squares[3];
+  stretch s;
+  if (f == NULL) return (modulus){law->stiff, law->mu};
+  (void)stretch_of(law, f, &s);
+  principal(law->dim, f, squares);
+  return law->law == SPH_NEO_HOOKEAN ? neo_hookean_waves(law, squares, &s)
+                                     : venant_waves(law, squares);
+}
+
+static const double *gradient_of(const sph_material_block *b, int64_t i) {
+  return b->deformation_gradient != NULL ? b->deformation_gradient + i * b->dim * b->dim : NULL;
+}
+
 static int32_t hyper_sound_speed(void *user, const sph_material_block *b, double *c) {
   const hyper *law = user;
-  for (int64_t i = 0; i < b->n; i++) c[i] = sqrt(law->stiff / law->density);
+  for (int64_t i = 0; i < b->n; i++) {
+    const modulus m = waves(law, gradient_of(b, i));
+    const double shear = law->dim > 1 ? m.shear : 0;
+    c[i] = sqrt(fmax(m.longitudinal, shear) / law->density);
+  }
   return 0;
 }
 
 static int32_t hyper_shear_speed(void *user, const sph_material_block *b, double *c) {
   const hyper *law = user;
-  for (int64_t i = 0; i < b->n; i++) c[i] = sqrt(law->mu / law->density);
+  for (int64_t i = 0; i < b->n; i++)
+    c[i] = sqrt(waves(law, gradient_of(b, i)).shear / law->density);
   return 0;
 }
 
@@ -223,7 +292,8 @@ static int64_t hyper_examine(const void *user, int32_t property, const sph_mater
                              char *text, size_t room) {
   const hyper *law = user;
   const int32_t d = law->dim;
-  if (property != SPHI_MATERIAL_FIRST_PIOLA && property != SPHI_MATERIAL_CAUCHY_STRESS) return -1;
+  (void)property; /* all read F, the wave speeds if they are given it */
+  if (b->deformation_gradient == NULL) return -1;
   for (int64_t i = 0; i < b->n; i++) {
     stretch s;
     int wrong = stretch_of(law, b->deformation_gradient + i * d * d, &s);

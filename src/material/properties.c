@@ -1,7 +1,7 @@
 /* Properties of a material: which a law has, what it needs, checks, dispatch to its functions. */
 #include "material_impl.h"
 
-#include <stddef.h>
+#include <sph/elastic.h>
 
 typedef int32_t (*one_output)(void *user, const sph_material_block *block, double *out);
 
@@ -224,6 +224,11 @@ sph_status sph_material_shear_speed(const sph_material *material, const sph_mate
 sph_status sph_material_small_strain_stress(const sph_material *material,
                                             const sph_material_block *block, double *sigma) {
   return evaluate(material, SPHI_MATERIAL_SMALL_STRAIN_STRESS, block, sigma);
+}
+
+sph_status sph_material_stress_rate_across(const sph_material *material,
+                                           const sph_material_block *block, double *rate) {
+  return evaluate(material, SPHI_MATERIAL_STRESS_RATE_ACROSS, block, rate);
 }
 
 sph_status sph_material_cauchy_stress(const sph_material *material, int32_t dim, int64_t n,

@@ -1,4 +1,5 @@
 /* Artificial stress of Gray from the principal stresses, He 2015 (3.22) to (3.26). */
+#include "../core/eigen.h"
 #include "operators_impl.h"
 
 #include <math.h>
@@ -17,46 +18,18 @@ static void artificial_2d(const double *s, double scale, double *r) {
   r[2] = (r1 - r2) * n * c;
 }
 
-/* One Jacobi rotation that clears a[p][q]; v collects the eigenvectors. */
-static void rotate(double a[3][3], double v[3][3], int p, int q) {
-  if (a[p][q] == 0.0) return;
-  double tau = (a[q][q] - a[p][p]) / (2.0 * a[p][q]);
-  double t = (tau >= 0.0 ? 1.0 : -1.0) / (fabs(tau) + sqrt(1.0 + tau * tau));
-  double c = 1.0 / sqrt(1.0 + t * t), s = t * c;
-  for (int k = 0; k < 3; ++k) {
-    double kp = a[k][p], kq = a[k][q], vp = v[k][p], vq = v[k][q];
-    a[k][p] = c * kp - s * kq;
-    a[k][q] = s * kp + c * kq;
-    v[k][p] = c * vp - s * vq;
-    v[k][q] = s * vp + c * vq;
-  }
-  for (int k = 0; k < 3; ++k) {
-    double pk = a[p][k], qk = a[q][k];
-    a[p][k] = c * pk - s * qk;
-    a[q][k] = s * pk + c * qk;
-  }
-}
-
-/* Cyclic Jacobi: for 3x3 it reaches rounding in five sweeps from any start, repeated
- * eigenvalues included, where the closed form loses half the digits. */
 static void artificial_3d(const double *s, double scale, double *r) {
-  enum { SWEEPS = 6 };
-  double a[3][3] = {{s[0], s[3], s[4]}, {s[3], s[1], s[5]}, {s[4], s[5], s[2]}};
-  double v[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  for (int k = 0; k < SWEEPS; ++k) {
-    rotate(a, v, 0, 1);
-    rotate(a, v, 0, 2);
-    rotate(a, v, 1, 2);
-  }
+  double values[3], v[9];
+  sphi_eigen_symmetric(3, s, values, v);
   memset(r, 0, 6 * sizeof *r);
   for (int k = 0; k < 3; ++k) {
-    double c = cure(a[k][k], scale);
-    r[0] += c * v[0][k] * v[0][k];
-    r[1] += c * v[1][k] * v[1][k];
-    r[2] += c * v[2][k] * v[2][k];
-    r[3] += c * v[0][k] * v[1][k];
-    r[4] += c * v[0][k] * v[2][k];
-    r[5] += c * v[1][k] * v[2][k];
+    const double c = cure(values[k], scale), *w = v + 3 * k;
+    r[0] += c * w[0] * w[0];
+    r[1] += c * w[1] * w[1];
+    r[2] += c * w[2] * w[2];
+    r[3] += c * w[0] * w[1];
+    r[4] += c * w[0] * w[2];
+    r[5] += c * w[1] * w[2];
   }
 }
 

@@ -87,9 +87,11 @@ static sph_status run_laws(law_job *j, int64_t n) {
   j->failed = INT64_MAX;
   sphi_parallel(j->e->rhs->base.ctx, n, GRAIN, law_range, j);
   if (j->failed == INT64_MAX) return SPH_OK;
-  j->status = run_law(j, j->failed, run_end(j, j->failed, n));
-  return sphi_material_fail(law_of(j, j->failed), j->property,
-                            j->status ? j->status : SPH_ERR_CALLBACK);
+  int64_t end = run_end(j, j->failed, n);
+  j->status = run_law(j, j->failed, end);
+  sph_material_block b = block_of(j, j->failed, end);
+  return sphi_material_explain(law_of(j, j->failed), j->property, &b, j->failed,
+                               j->status ? j->status : SPH_ERR_CALLBACK);
 }
 
 int sphi_rhs_has_pressure_law(const sph_rhs *rhs) {
