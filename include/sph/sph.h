@@ -7,6 +7,7 @@
 #include <sph/correction.h>
 #include <sph/integrator.h>
 #include <sph/kernel.h>
+#include <sph/layout.h>
 #include <sph/material.h>
 #include <sph/neighbors.h>
 #include <sph/operators.h>
