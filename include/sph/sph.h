@@ -8,6 +8,7 @@
 #include <sph/elastic.h>
 #include <sph/integrator.h>
 #include <sph/kernel.h>
+#include <sph/layout.h>
 #include <sph/material.h>
 #include <sph/neighbors.h>
 #include <sph/operators.h>

@@ -19,6 +19,9 @@ static struct {
   sph_material_functions law;
   sph_hooke_options hooke;
   sph_bulk_viscosity bulk;
+  sph_lattice_options lattice;
+  sph_hole_layout_options holes;
+  sph_region_options region;
   sph_term term;
   sph_rate rate;
   const int64_t *offsets;
@@ -78,6 +81,15 @@ static void open_all(void) {
   g.block.dim = 1;
   g.block.n = 4;
   sph_bulk_viscosity_init(&g.bulk);
+  sph_lattice_options_init(&g.lattice);
+  g.lattice.dim = 1;
+  g.lattice.spacing = 0.5;
+  sph_hole_layout_options_init(&g.holes);
+  g.holes.holes = 1;
+  g.holes.hole = g.in; /* the centre (1, 1), the corner of the unit square, and the radius 1 */
+  g.holes.spacing = 0.5;
+  sph_region_options_init(&g.region);
+  g.region.dim = 1;
   g.term = rh_term(SPH_TERM_STRESS, 0, 0);
   g.rate = (sph_rate){SPH_FIELD_V, g.out};
   void *all[KINDS] = {ctx, g.s.set, g.s.kernel, g.s.list, g.material, g.rhs, g.it};
@@ -181,7 +193,11 @@ static void close_all(void) {
   X(save, INTEGRATOR, sph_integrator_save(h, SET))                                         \
   X(save_set, PARTICLES, sph_integrator_save(g.it, h))                                     \
   X(restore, INTEGRATOR, sph_integrator_restore(h, SET))                                   \
-  X(cfl, PARTICLES, sph_cfl_step(h, 1.0, g.out))
+  X(cfl, PARTICLES, sph_cfl_step(h, 1.0, g.out))                                           \
+  X(lattice, CONTEXT, sph_layout_lattice(h, &g.lattice, 0, NULL, &g.found))                \
+  X(holes, CONTEXT, sph_layout_holes(h, &g.holes, 0, NULL, &g.found))                      \
+  X(jitter, CONTEXT, sph_layout_jitter(h, 1, 0.1, 1, NULL, NULL, 1, g.out))                \
+  X(volumes, CONTEXT, sph_layout_volumes(h, &g.region, 1, g.in, g.out))
 
 #define DEFINE_CALL(name, k, call) \
   static sph_status call_##name(void *h) { return call; }
@@ -299,7 +315,17 @@ static void test_handles(void **state) {
   X(sph_integrator_create(CTX, NULL, NULL))                         \
   X(sph_integrator_bind_array(g.it, NULL, 4))                       \
   X(sph_integrator_set_function(g.it, NULL, NULL))                  \
-  X(sph_cfl_step(SET, 1.0, NULL))
+  X(sph_cfl_step(SET, 1.0, NULL))                                   \
+  X(sph_layout_lattice(CTX, NULL, 0, NULL, &g.found))               \
+  X(sph_layout_lattice(CTX, &g.lattice, 0, NULL, NULL))             \
+  X(sph_layout_lattice(CTX, &g.lattice, 9, NULL, &g.found))         \
+  X(sph_layout_holes(CTX, NULL, 0, NULL, &g.found))                 \
+  X(sph_layout_holes(CTX, &g.holes, 0, NULL, NULL))                 \
+  X(sph_layout_holes(CTX, &g.holes, 9, NULL, &g.found))             \
+  X(sph_layout_jitter(CTX, 1, 0.1, 1, NULL, NULL, 1, NULL))         \
+  X(sph_layout_volumes(CTX, NULL, 1, g.in, g.out))                  \
+  X(sph_layout_volumes(CTX, &g.region, 1, NULL, g.out))             \
+  X(sph_layout_volumes(CTX, &g.region, 1, g.in, NULL))
 
 static void test_pointers(void **state) {
   (void)state;
@@ -414,6 +440,9 @@ static void test_inits(void **state) {
   TRY(sph_hooke_options_init_sized)
   TRY(sph_operands_init_sized)
   TRY(sph_bulk_viscosity_init_sized)
+  TRY(sph_lattice_options_init_sized)
+  TRY(sph_hole_layout_options_init_sized)
+  TRY(sph_region_options_init_sized)
   TRY(sph_term_init_sized)
   TRY(sph_rhs_options_init_sized)
   TRY(sph_integrator_options_init_sized)
@@ -486,9 +515,9 @@ static int missing_of(const char *header, const char *mine) {
 /* Run from the top of the tree, as the Makefile does; elsewhere there is nothing to read. */
 static void test_complete(void **state) {
   (void)state;
-  static const char *const headers[] = {"base",     "context",   "particles", "kernel",
-                                        "material", "neighbors", "operators", "correction",
-                                        "rhs",      "integrator"};
+  static const char *const headers[] = {"base",       "context",  "particles", "kernel",
+                                        "layout",     "material", "neighbors", "operators",
+                                        "correction", "rhs",      "integrator"};
   char *mine = read_text("tests/api/test_null_everywhere.c");
   int missing = 0;
   if (!mine) skip();

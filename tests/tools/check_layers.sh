@@ -6,7 +6,7 @@ cd "$(dirname "$0")/../.."
 bad=0
 find src -name '*.[ch]' -o -name '*.inc' | sort | xargs -r awk '
   BEGIN {
-    split("core|kernel material|particles|neighbors|sweep|operators boundary|rhs poisson body|" \
+    split("core|kernel material|particles|neighbors layout|sweep|operators boundary|rhs poisson body|" \
           "integrate adapt|scheme io halo", rows, "|")
     for (r in rows) { n = split(rows[r], names, " "); for (k = 1; k <= n; ++k) row[names[k]] = r + 0 }
   }
@@ -26,7 +26,7 @@ find src -name '*.[ch]' -o -name '*.inc' | sort | xargs -r awk '
     else if (row[step[2]] >= row[own]) complain(own " must not include " path)
   }
   END { exit bad }' || bad=1
-if grep -nE '#[ \t]*include[ \t]*"(\.\./)*(src/|core/|kernel/|material/|particles/|neighbors/|sweep/|operators/|rhs/|integrate/)' \
+if grep -nE '#[ \t]*include[ \t]*"(\.\./)*(src/|core/|kernel/|material/|particles/|neighbors/|layout/|sweep/|operators/|rhs/|integrate/)' \
   -r examples tests/api tests/validation tests/bench --include="*.c" --include="*.h" 2>/dev/null; then
   echo 'only public headers are allowed here'
   bad=1

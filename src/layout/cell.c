@@ -1,0 +1,175 @@
+/* Voronoi cells: an interval in 1-D, a polygon cut by half-planes in 2-D, and in 3-D the faces of a
+ * polyhedron one by one, each a polygon in its plane cut by all other half-spaces. */
+#include "cell.h"
+
+#include <math.h>
+
+static double length2(const double *p) { return p[0] * p[0] + p[1] * p[1]; }
+
+/* Keep n.p <= offset (Sutherland and Hodgman); `from` and `to` differ. */
+static void cut(const sphi_polygon *from, sphi_polygon *to, const double *n, double offset) {
+  to->n = 0;
+  for (int64_t k = 0; k < from->n; ++k) {
+    const double *p = from->p[k], *q = from->p[k + 1 < from->n ? k + 1 : 0];
+    const double at_p = n[0] * p[0] + n[1] * p[1] - offset;
+    const double at_q = n[0] * q[0] + n[1] * q[1] - offset;
+    if (at_p <= 0.0) {
+      to->p[to->n][0] = p[0];
+      to->p[to->n++][1] = p[1];
+    }
+    if ((at_p < 0.0 && at_q > 0.0) || (at_p > 0.0 && at_q < 0.0)) {
+      const double t = at_p / (at_p - at_q);
+      to->p[to->n][0] = p[0] + t * (q[0] - p[0]);
+      to->p[to->n++][1] = p[1] + t * (q[1] - p[1]);
+    }
+  }
+}
+
+static int cuts(const sphi_polygon *polygon, const double *n, double offset) {
+  for (int64_t k = 0; k < polygon->n; ++k)
+    if (n[0] * polygon->p[k][0] + n[1] * polygon->p[k][1] > offset) return 1;
+  return 0;
+}
+
+static void swap(sphi_cell_room *room) {
+  const sphi_polygon other = room->a;
+  room->a = room->b;
+  room->b = other;
+}
+
+static double reach_of(const sphi_polygon *polygon) {
+  double most = 0.0;
+  for (int64_t k = 0; k < polygon->n; ++k) most = fmax(most, length2(polygon->p[k]));
+  return sqrt(most);
+}
+
+static void rectangle(sphi_polygon *polygon, double x0, double x1, double y0, double y1) {
+  const double corners[4][2] = {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
+  for (int k = 0; k < 4; ++k)
+    for (int a = 0; a < 2; ++a) polygon->p[k][a] = corners[k][a];
+  polygon->n = 4;
+}
+
+/* ---- 1-D --------------------------------------------------------------------------------- */
+
+static double interval(const sph_region_options *region, const double *x, int64_t mates,
+                       const sphi_cell_room *room, double *reach) {
+  double lo = region->lo[0] - x[0], hi = region->hi[0] - x[0];
+  for (int64_t k = 0; k < mates; ++k) {
+    const double middle = 0.5 * room->mates[k].d[0];
+    if (middle < 0.0) lo = fmax(lo, middle);
+    if (middle > 0.0) hi = fmin(hi, middle);
+  }
+  *reach = fmax(-lo, hi);
+  return region->inside == NULL ? hi - lo : sphi_segment_inside(region, x[0], lo, hi);
+}
+
+/* ---- 2-D --------------------------------------------------------------------------------- */
+
+static double area_in_region(const sph_region_options *region, const double *x,
+                             const sphi_polygon *polygon, double reach) {
+  if (region->inside != NULL) return sphi_polygon_inside(region, x, polygon);
+  double area = sphi_polygon_area(polygon);
+  for (int32_t k = 0; k < region->holes; ++k) {
+    const double *hole = sphi_hole(region->hole, k);
+    const double centre[2] = {hole[0] - x[0], hole[1] - x[1]};
+    if (sqrt(length2(centre)) < hole[2] + reach)
+      area -= sphi_polygon_in_disc(polygon, centre, hole[2]);
+  }
+  return fmax(0.0, area);
+}
+
+static double polygon_cell(const sph_region_options *region, const double *x, int64_t mates,
+                           sphi_cell_room *room, double *reach) {
+  rectangle(&room->a, region->lo[0] - x[0], region->hi[0] - x[0], region->lo[1] - x[1],
+            region->hi[1] - x[1]);
+  *reach = reach_of(&room->a);
+  for (int64_t k = 0; k < mates; ++k) {
+    const sphi_mate *mate = &room->mates[k];
+    if (mate->r2 > 4.0 * *reach * *reach) break;
+    if (!cuts(&room->a, mate->d, 0.5 * mate->r2)) continue;
+    cut(&room->a, &room->b, mate->d, 0.5 * mate->r2);
+    swap(room);
+    *reach = reach_of(&room->a);
+  }
+  return area_in_region(region, x, &room->a, *reach);
+}
+
+/* ---- 3-D --------------------------------------------------------------------------------- */
+
+/* A half-space n.p <= offset, |n| = 1, offset >= 0. */
+typedef struct plane {
+  double n[3], offset;
+} plane;
+
+static plane plane_of(const sph_region_options *region, const double *x, const sphi_mate *mates,
+                      int64_t k) {
+  plane result = {{0.0, 0.0, 0.0}, 0.0};
+  if (k < 6) { /* the faces of the box */
+    const int64_t a = k / 2;
+    result.n[a] = k % 2 ? 1.0 : -1.0;
+    result.offset = k % 2 ? region->hi[a] - x[a] : x[a] - region->lo[a];
+    return result;
+  }
+  const sphi_mate *mate = &mates[k - 6];
+  const double r = sqrt(mate->r2);
+  for (int a = 0; a < 3; ++a) result.n[a] = mate->d[a] / r;
+  result.offset = 0.5 * r;
+  return result;
+}
+
+/* Two directions at right angles to n and to each other. */
+static void tangents(const double *n, double *u, double *v) {
+  const int a = fabs(n[0]) < fabs(n[1]) ? (fabs(n[0]) < fabs(n[2]) ? 0 : 2)
+                                        : (fabs(n[1]) < fabs(n[2]) ? 1 : 2);
+  double size = 0.0;
+  for (int k = 0; k < 3; ++k) u[k] = (k == a ? 1.0 : 0.0) - n[a] * n[k];
+  for (int k = 0; k < 3; ++k) size += u[k] * u[k];
+  for (int k = 0; k < 3; ++k) u[k] /= sqrt(size);
+  for (int k = 0; k < 3; ++k)
+    v[k] = n[(k + 1) % 3] * u[(k + 2) % 3] - n[(k + 2) % 3] * u[(k + 1) % 3];
+}
+
+static double dot3(const double *a, const double *b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/* The face of the cell in plane k, left in room->a as coordinates along u and v. */
+static void cut_face(const sph_region_options *region, const double *x, int64_t planes, int64_t k,
+                     double size, sphi_cell_room *room) {
+  const plane own = plane_of(region, x, room->mates, k);
+  double u[3], v[3];
+  tangents(own.n, u, v);
+  rectangle(&room->a, -size, size, -size, size);
+  for (int64_t other = 0; other < planes && room->a.n > 0; ++other) {
+    if (other == k) continue;
+    const plane p = plane_of(region, x, room->mates, other);
+    const double in_plane[2] = {dot3(p.n, u), dot3(p.n, v)};
+    const double offset = p.offset - own.offset * dot3(p.n, own.n);
+    if (!cuts(&room->a, in_plane, offset)) continue;
+    cut(&room->a, &room->b, in_plane, offset);
+    swap(room);
+  }
+}
+
+/* Pyramids from the particle to each face: volume = sum of offset * area / 3. */
+static double polyhedron_cell(const sph_region_options *region, const double *x, int64_t mates,
+                              sphi_cell_room *room, double *reach) {
+  double diagonal = 0.0, volume = 0.0, most = 0.0;
+  for (int a = 0; a < 3; ++a) diagonal = hypot(diagonal, region->hi[a] - region->lo[a]);
+  for (int64_t k = 0; k < mates + 6; ++k) {
+    const double offset = plane_of(region, x, room->mates, k).offset;
+    cut_face(region, x, mates + 6, k, 2.0 * diagonal, room);
+    volume += offset * sphi_polygon_area(&room->a) / 3.0;
+    if (room->a.n > 0) most = fmax(most, hypot(offset, reach_of(&room->a)));
+  }
+  *reach = most;
+  return volume;
+}
+
+double sphi_cell_measure(const sph_region_options *region, const double *x, int64_t mates,
+                         sphi_cell_room *room, double *reach) {
+  if (region->dim == 1) return interval(region, x, mates, room, reach);
+  if (region->dim == 2) return polygon_cell(region, x, mates, room, reach);
+  return polyhedron_cell(region, x, mates, room, reach);
+}

@@ -1,0 +1,153 @@
+/* How much of a cell lies in the region: discs in closed form, a host's test by halving. */
+#include "cell.h"
+
+#include <math.h>
+
+static double cross(const double *a, const double *b) { return a[0] * b[1] - a[1] * b[0]; }
+static double dot(const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1]; }
+
+double sphi_polygon_area(const sphi_polygon *polygon) {
+  double twice = 0.0;
+  for (int64_t k = 0; k < polygon->n; ++k)
+    twice += cross(polygon->p[k], polygon->p[k + 1 < polygon->n ? k + 1 : 0]);
+  return 0.5 * twice;
+}
+
+/* ---- discs ------------------------------------------------------------------------------- */
+
+static double sector(const double *a, const double *b, double radius) {
+  return 0.5 * radius * radius * atan2(cross(a, b), dot(a, b));
+}
+
+/* Signed area of the triangle (0, a, b) within the disc about 0. The line a + t (b - a) is in the
+ * disc for t0 < t < t1. */
+static double triangle_in_disc(const double *a, const double *b, double radius) {
+  const double along[2] = {b[0] - a[0], b[1] - a[1]};
+  const double length2 = dot(along, along);
+  if (length2 == 0.0) return 0.0;
+  const double middle = -dot(a, along) / length2, height = cross(a, b);
+  const double root = radius * radius * length2 - height * height;
+  if (root <= 0.0) return sector(a, b, radius);
+  const double half = sqrt(root) / length2;
+  const double t0 = fmax(0.0, middle - half), t1 = fmin(1.0, middle + half);
+  if (t0 >= t1) return sector(a, b, radius);
+  const double enter[2] = {a[0] + t0 * along[0], a[1] + t0 * along[1]};
+  const double leave[2] = {a[0] + t1 * along[0], a[1] + t1 * along[1]};
+  double area = 0.5 * height * (t1 - t0);
+  if (t0 > 0.0) area += sector(a, enter, radius);
+  if (t1 < 1.0) area += sector(leave, b, radius);
+  return area;
+}
+
+double sphi_polygon_in_disc(const sphi_polygon *polygon, const double *centre, double radius) {
+  double area = 0.0;
+  for (int64_t k = 0; k < polygon->n; ++k) {
+    const double *p = polygon->p[k], *q = polygon->p[k + 1 < polygon->n ? k + 1 : 0];
+    const double a[2] = {p[0] - centre[0], p[1] - centre[1]};
+    const double b[2] = {q[0] - centre[0], q[1] - centre[1]};
+    area += triangle_in_disc(a, b, radius);
+  }
+  return area;
+}
+
+/* ---- a host's test ----------------------------------------------------------------------- */
+
+typedef struct corner {
+  double p[2]; /* relative to the particle */
+  int inside;
+} corner;
+
+typedef struct halving {
+  const sph_region_options *region;
+  const double *x;
+} halving;
+
+static int in_region(const sph_region_options *region, const double *at) {
+  for (int32_t k = 0; k < region->holes; ++k) {
+    const double *hole = sphi_hole(region->hole, k);
+    const double d[2] = {at[0] - hole[0], at[1] - hole[1]};
+    if (dot(d, d) < hole[2] * hole[2]) return 0;
+  }
+  return region->inside(region->inside_user, at) != 0;
+}
+
+static corner look(const halving *h, double px, double py) {
+  const double at[2] = {h->x[0] + px, h->region->dim > 1 ? h->x[1] + py : 0.0};
+  return (corner){{px, py}, in_region(h->region, at)};
+}
+
+static corner between(const halving *h, const corner *a, const corner *b) {
+  return look(h, 0.5 * (a->p[0] + b->p[0]), 0.5 * (a->p[1] + b->p[1]));
+}
+
+/* Fraction of the edge from a towards b, of which one is inside, that is on a's side. */
+static double crossing(const halving *h, const corner *a, const corner *b) {
+  double lo = 0.0, hi = 1.0;
+  for (int k = 0; k < 30; ++k) {
+    const double t = 0.5 * (lo + hi);
+    const corner at = look(h, a->p[0] + t * (b->p[0] - a->p[0]), a->p[1] + t * (b->p[1] - a->p[1]));
+    *(at.inside == a->inside ? &lo : &hi) = t;
+  }
+  return 0.5 * (lo + hi);
+}
+
+/* Corners alone do not tell about the middle of what is large: the first two levels always split.
+ */
+enum { ALWAYS = 2 };
+
+static double segment(const halving *h, const corner *a, const corner *b, int level) {
+  const double length = b->p[0] - a->p[0];
+  if (a->inside == b->inside && level >= ALWAYS) return a->inside ? length : 0.0;
+  if (level >= h->region->levels) {
+    if (a->inside == b->inside) return a->inside ? length : 0.0;
+    const double t = crossing(h, a, b);
+    return length * (a->inside ? t : 1.0 - t);
+  }
+  const corner middle = between(h, a, b);
+  return segment(h, a, &middle, level + 1) + segment(h, &middle, b, level + 1);
+}
+
+double sphi_segment_inside(const sph_region_options *region, double x, double lo, double hi) {
+  const halving h = {region, &x};
+  const corner a = look(&h, lo, 0.0), b = look(&h, hi, 0.0);
+  return segment(&h, &a, &b, 0);
+}
+
+/* A triangle of which one corner differs from the other two, cut straight. */
+static double cut_triangle(const halving *h, const corner *c, double area) {
+  int odd = 0;
+  while (c[(odd + 1) % 3].inside != c[(odd + 2) % 3].inside) ++odd;
+  const double part =
+      crossing(h, &c[odd], &c[(odd + 1) % 3]) * crossing(h, &c[odd], &c[(odd + 2) % 3]);
+  return area * (c[odd].inside ? part : 1.0 - part);
+}
+
+static double triangle(const halving *h, const corner *c, int level) {
+  const double u[2] = {c[1].p[0] - c[0].p[0], c[1].p[1] - c[0].p[1]};
+  const double v[2] = {c[2].p[0] - c[0].p[0], c[2].p[1] - c[0].p[1]};
+  const double area = 0.5 * cross(u, v);
+  const int all = c[0].inside == c[1].inside && c[1].inside == c[2].inside;
+  const int last = level >= h->region->levels;
+  if (all && (last || level >= ALWAYS)) return c[0].inside ? area : 0.0;
+  if (last) return cut_triangle(h, c, area);
+  const corner m[3] = {between(h, &c[1], &c[2]), between(h, &c[2], &c[0]),
+                       between(h, &c[0], &c[1])};
+  const corner part[4][3] = {
+      {c[0], m[2], m[1]}, {c[1], m[0], m[2]}, {c[2], m[1], m[0]}, {m[0], m[1], m[2]}};
+  double sum = 0.0;
+  for (int k = 0; k < 4; ++k) sum += triangle(h, part[k], level + 1);
+  return sum;
+}
+
+/* A fan of triangles from the particle, which lies in its cell. */
+double sphi_polygon_inside(const sph_region_options *region, const double *x,
+                           const sphi_polygon *polygon) {
+  const halving h = {region, x};
+  double area = 0.0;
+  for (int64_t k = 0; k < polygon->n; ++k) {
+    const double *p = polygon->p[k], *q = polygon->p[k + 1 < polygon->n ? k + 1 : 0];
+    const corner fan[3] = {look(&h, 0.0, 0.0), look(&h, p[0], p[1]), look(&h, q[0], q[1])};
+    area += triangle(&h, fan, 0);
+  }
+  return area;
+}
