@@ -1,15 +1,18 @@
 /* Convergence of a smooth stress wave in an elastic bar, and what boundary conditions cost.
  *
- * Equations   dv/dt = (1/rho) dsigma/dx,   dsigma/dt = E dv/dx                     (uniaxial
- * stress) summed      dv_i/dt = sum_j m_j (sigma_i/rho_i^2 + sigma_j/rho_j^2) dW~_ij difference
- * dv_i/dt = sum_j m_j (sigma_j - sigma_i) / (rho_i rho_j) dW~_ij both with dsigma_i/dt = E sum_j
- * m_j/rho_j (v_j - v_i) dW~_ij, corrected gradients dW~ of the configuration at rest (strains of
- * .001 would hide the rate otherwise), no viscosity. Set-up      L = 40, rho = E = c = 1; N
- * particles at the middles of cells dp = L/N, cubic spline, h = 1.5 dp. The stress at x = 0 is
- * -p(t), p = .001 (sin(pi t/20 - pi/2) + 1); the end x = L is fixed. Until t = 40, when the front
- * has just reached it. Boundaries  Ghosts (g) mirror real particles (r) at the distance d from the
- * end. second order  loaded end: sigma_g = -2 p - sigma_r, v_g = v_r + 2 d p'/E (as dv/dx =
- * sigma'/E); fixed end: sigma_g = sigma_r, v_g = -v_r plain         the same without the term in p'
+ * Equations   dv/dt = (1/rho) dsigma/dx,   dsigma/dt = E dv/dx                 (uniaxial stress)
+ *   summed      dv_i/dt = sum_j m_j (sigma_i/rho_i^2 + sigma_j/rho_j^2) dW~_ij
+ *   difference  dv_i/dt = sum_j m_j (sigma_j - sigma_i) / (rho_i rho_j) dW~_ij
+ *             both with dsigma_i/dt = E sum_j m_j/rho_j (v_j - v_i) dW~_ij, corrected gradients dW~
+ *             of the configuration at rest (strains of .001 would hide the rate otherwise), no
+ *             viscosity.
+ * Set-up      L = 40, rho = E = c = 1; N particles at the middles of cells dp = L/N, cubic spline,
+ *             h = 1.5 dp. The stress at x = 0 is -p(t), p = .001 (sin(pi t/20 - pi/2) + 1); the end
+ *             x = L is fixed. Until t = 40, when the front has just reached it.
+ * Boundaries  Ghosts (g) mirror real particles (r) at the distance d from the end (boundary.h).
+ *   second order  loaded end: sigma_g = -2 p - sigma_r, v_g = v_r + 2 d p'/E (as dv/dx =
+ *                 sigma'/E); fixed end: sigma_g = sigma_r, v_g = -v_r
+ *   plain         the same without the term in p'
  *   held          no ghosts, difference form: sigma = -p on the first particle, v = 0 on the last
  * Reference   exact: sigma = -p(t - x), v = p(t - x). He 2015, fig. 5.7: rates of 1 (L1) and 1.5
  *             (L2) for RKC at CFL 1, no figures. Figures by N: an independent 1-D program.
@@ -27,7 +30,7 @@
 static const double length = 40.0, density = 1.0, young = 1.0, amplitude = 1e-3;
 static const double end_time = 40.0, pi = 3.14159265358979323846;
 
-enum { SECOND_ORDER = 1, PLAIN = 2, HELD = 3, GHOSTS = 3 }; /* ghosts at each end: 2 h / dp = 3 */
+enum { SECOND_ORDER = 1, PLAIN = 2, HELD = 3, GHOSTS = 6 }; /* 2 h / dp = 3 at each end */
 
 typedef struct wave {
   int n;
@@ -49,35 +52,49 @@ static double pressure_rate(double t) {
 
 /* ---- boundary conditions ----------------------------------------------------------------- */
 
-/* Prepare hook: the values of the ghosts, first all of the loaded end. They never move. */
-static int32_t set_ghosts(void *user, double t, sph_particles *set, const sph_rate *rates,
-                          int32_t count) {
-  const wave *w = user;
-  const double slope = w->boundary == SECOND_ORDER ? pressure_rate(t) / young : 0.0;
-  (void)set;
-  (void)rates;
-  (void)count;
-  for (int k = 0; k < GHOSTS; ++k) {
-    const int left = w->n + k, right = left + GHOSTS, mirrored = w->n - 1 - k;
-    const double d = ((double)k + 0.5) * w->dp;
-    w->sigma[left] = -2.0 * pressure(t) - w->sigma[k];
-    w->v[left] = w->v[k] + 2.0 * d * slope;
-    w->sigma[right] = w->sigma[mirrored];
-    w->v[right] = -w->v[mirrored];
-  }
+/* The loaded wall at time t. A pressure p is the force p n per area on the body. */
+static int32_t load(void *user, double t, sph_wall *wall) {
+  (void)user;
+  wall->data.traction[0] = pressure(t);
+  wall->data.traction_rate[0] = pressure_rate(t);
   return 0;
 }
 
-/* Finish hook: a driven value is driven by its rate. */
-static int32_t drive_ends(void *user, double t, sph_particles *set, const sph_rate *rates,
-                          int32_t count) {
-  const wave *w = user;
-  (void)set;
-  for (int32_t k = 0; k < count; ++k) {
-    if (rates[k].field == SPH_FIELD_SIGMA) rates[k].values[0] = -pressure_rate(t);
-    if (rates[k].field == SPH_FIELD_V) rates[k].values[w->n - 1] = 0.0;
-  }
-  return 0;
+static sph_ghosts *make_ghosts(sph_context *ctx, const wave *w) {
+  sph_ghosts *ghosts;
+  sph_ghosts_options options;
+  sph_wall wall;
+  sph_ghosts_options_init(&options);
+  options.dim = 1;
+  options.position_field = SPH_FIELD_X0;
+  need(ctx, sph_ghosts_create(ctx, &options, &ghosts));
+  sph_wall_init(&wall);
+  wall.kind = SPH_WALL_TRACTION;
+  wall.normal[0] = 1.0; /* into the bar */
+  wall.move = load;
+  wall.modulus = w->boundary == SECOND_ORDER ? young : 0.0; /* with 0 the term in p' is left out */
+  need(ctx, sph_ghosts_add_wall(ghosts, &wall, NULL));
+  sph_wall_init(&wall);
+  wall.kind = SPH_WALL_VELOCITY;
+  wall.point[0] = length;
+  wall.normal[0] = -1.0;
+  need(ctx, sph_ghosts_add_wall(ghosts, &wall, NULL));
+  return ghosts;
+}
+
+/* What a held value is driven by: its rate. */
+static void load_rate(void *user, double t, int64_t i, double *rate) {
+  (void)user;
+  (void)i;
+  rate[0] = -pressure_rate(t);
+}
+
+static sph_hold *make_hold(sph_context *ctx, const wave *w) {
+  sph_hold *hold;
+  need(ctx, sph_hold_create(ctx, &hold));
+  need(ctx, sph_hold_field(hold, SPH_FIELD_SIGMA, 1, NULL, 0, 1, load_rate, NULL, NULL));
+  need(ctx, sph_hold_field(hold, SPH_FIELD_V, 1, NULL, w->n - 1, 1, NULL, NULL, NULL));
+  return hold;
 }
 
 /* ---- set-up ------------------------------------------------------------------------------ */
@@ -88,16 +105,14 @@ static sph_particles *make_particles(sph_context *ctx, wave *w) {
   sph_particles_options_init(&options);
   options.dim = 1;
   need(ctx, sph_particles_create(ctx, &options, &set));
+  need(ctx, sph_particles_reserve(set, w->n + GHOSTS)); /* so that no array moves later */
   need(ctx, sph_particles_add(set, w->n, NULL));
-  if (w->boundary != HELD) need(ctx, sph_particles_add_ghosts(set, 2 * GHOSTS, NULL));
   double *rest = field(ctx, set, SPH_FIELD_X0), *h = field(ctx, set, SPH_FIELD_H);
   double *m = field(ctx, set, SPH_FIELD_M), *rho = field(ctx, set, SPH_FIELD_RHO);
   w->v = field(ctx, set, SPH_FIELD_V);
   w->sigma = field(ctx, set, SPH_FIELD_SIGMA);
-  for (int64_t i = 0; i < sph_particles_count(set); ++i) {
-    int64_t cell = i; /* real particles, ghosts of the loaded end, ghosts of the fixed end */
-    if (i >= w->n) cell = i < w->n + GHOSTS ? w->n - 1 - i : i - GHOSTS;
-    rest[i] = ((double)cell + 0.5) * w->dp;
+  for (int i = 0; i < w->n; ++i) {
+    rest[i] = ((double)i + 0.5) * w->dp;
     h[i] = 1.5 * w->dp;
     rho[i] = density;
     m[i] = density * w->dp;
@@ -105,7 +120,7 @@ static sph_particles *make_particles(sph_context *ctx, wave *w) {
   return set;
 }
 
-static sph_rhs *make_rhs(sph_context *ctx, wave *w) {
+static sph_rhs *make_rhs(sph_context *ctx, const wave *w, sph_ghosts *ghosts, sph_hold *hold) {
   sph_rhs *rhs;
   sph_kernel *kernel;
   sph_material *hooke;
@@ -130,8 +145,10 @@ static sph_rhs *make_rhs(sph_context *ctx, wave *w) {
   term.corrected = 1;
   need(ctx, sph_rhs_add(rhs, &term));
   need(ctx, sph_rhs_set_material(rhs, 0, hooke));
-  need(ctx, w->boundary == HELD ? sph_rhs_set_finish(rhs, drive_ends, w)
-                                : sph_rhs_set_prepare(rhs, set_ghosts, w));
+  if (w->boundary == HELD)
+    need(ctx, sph_rhs_set_finish(rhs, sph_hold_finish, hold));
+  else
+    need(ctx, sph_rhs_set_prepare(rhs, sph_ghosts_prepare, ghosts));
   sph_material_destroy(hooke); /* the right-hand side keeps both */
   sph_kernel_destroy(kernel);
   return rhs;
@@ -176,7 +193,9 @@ static errors run(int n, int boundary, int32_t scheme, double cfl) {
   need(NULL, sph_context_create(NULL, &ctx));
   need(ctx, sph_neighbors_create(ctx, NULL, &list));
   sph_particles *set = make_particles(ctx, &w);
-  sph_rhs *rhs = make_rhs(ctx, &w);
+  sph_ghosts *ghosts = make_ghosts(ctx, &w);
+  sph_hold *hold = make_hold(ctx, &w);
+  sph_rhs *rhs = make_rhs(ctx, &w, ghosts, hold);
   sph_integrator *integrator = make_integrator(ctx, &w, scheme);
   need(ctx, sph_integrator_set_rhs(integrator, rhs, list));
   sph_step_info_init(&info);
@@ -188,6 +207,8 @@ static errors run(int n, int boundary, int32_t scheme, double cfl) {
   e.stages = info.stages;
   sph_integrator_destroy(integrator);
   sph_rhs_destroy(rhs);
+  sph_hold_destroy(hold);
+  sph_ghosts_destroy(ghosts);
   sph_neighbors_destroy(list);
   sph_particles_destroy(set);
   sph_context_destroy(ctx);

@@ -67,6 +67,11 @@ typedef struct sph_pair_block {
   const double *f;  /* (dW/dr)/r, 0 at r = 0, so that grad_i W_ij = f * dx */
 } sph_pair_block;
 
+/* A host term may also add to the velocity gradient L of SPH_TERM_STRESS_RATE, before the materials
+ * read it: give this in place of a field; out then has dim * dim components, row-major. Where no
+ * stress rate is asked for, the term is skipped. */
+enum { SPH_TARGET_VELOCITY_GRADIENT = 65536 };
+
 /* Add the block's contribution to out (the components of the term's field, for particle i). Runs on
  * several threads at once for different i; blocks of one i come in a fixed order. Read the set
  * through `user`. */
@@ -113,8 +118,9 @@ SPH_API void sph_rhs_destroy(sph_rhs *rhs);
 SPH_API sph_status sph_rhs_add(sph_rhs *rhs, const sph_term *term);
 
 /* Append a host's own term that adds to the rate of `field`, which the set must have when it is
- * evaluated; fn and user must stay valid as long as rhs. Costs one more pass over the pairs, in
- * scalar code. SPH_ERR_ARG: fn NULL, field negative. SPH_ERR_LIMIT: more than 16. Since 0.1. */
+ * evaluated, or to SPH_TARGET_VELOCITY_GRADIENT; fn and user must stay valid as long as rhs. Costs
+ * one more pass over the pairs, in scalar code. SPH_ERR_ARG: fn NULL, field negative.
+ * SPH_ERR_LIMIT: more than 16. Since 0.1. */
 SPH_API sph_status sph_rhs_add_host(sph_rhs *rhs, int32_t field, sph_pair_fn fn, void *user);
 
 /* Material of a phase (0..255), retained; NULL removes it. Where it has a pressure law, P of the

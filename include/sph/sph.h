@@ -3,6 +3,7 @@
 #define SPH_SPH_H
 
 #include <sph/base.h>
+#include <sph/boundary.h>
 #include <sph/context.h>
 #include <sph/correction.h>
 #include <sph/elastic.h>

@@ -2,7 +2,7 @@
  * hook. */
 #include "rhs_impl.h"
 
-
+#include <stdio.h>
 #include <string.h>
 
 int32_t sphi_term_field(int32_t kind) {
@@ -95,13 +95,26 @@ static sph_status check_fields(sphi_evaluation *e) {
   return s;
 }
 
+/* The hook may have called the library, whose sentence goes on. It is copied first, as the new one
+ * takes its place. */
+static sph_status hook_failed(const sphi_evaluation *e, const char *name, int32_t answer) {
+  sph_context *ctx = e->rhs->base.ctx;
+  char before[512];
+  (void)snprintf(before, sizeof before, "%s", sph_context_last_error(ctx));
+  if (before[0] == '\0' || strcmp(sph_status_name(answer), "unknown") == 0)
+    return sphi_fail(ctx, SPH_ERR_CALLBACK, "the %s hook answered %d at t = %g", name, answer,
+                     e->t);
+  return sphi_fail(ctx, SPH_ERR_CALLBACK,
+                   "the %s hook answered %d (%s) at t = %g; last sentence: %s", name, answer,
+                   sph_status_name(answer), e->t, before);
+}
+
 static sph_status run_hook(sphi_evaluation *e, sph_rhs_hook hook, void *user, const char *name) {
   if (!hook) return SPH_OK;
   int32_t answer = hook(user, e->t, e->set, e->rates, e->count);
   if (answer == 0) return SPH_OK;
   if (answer > 0) return SPH_RETRY;
-  return sphi_fail(e->rhs->base.ctx, SPH_ERR_CALLBACK, "the %s hook answered %d at t = %g", name,
-                   answer, e->t);
+  return hook_failed(e, name, answer);
 }
 
 /* A list that is not to be updated here must still hold. */

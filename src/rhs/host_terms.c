@@ -85,12 +85,23 @@ static void host_range(void *job, int64_t lo, int64_t hi, int32_t worker) {
     if (j->e->list->order[k] < j->e->rows) host_row(j, k);
 }
 
+/* Where a term adds to: a rate, or the velocity gradient that the materials are about to read. NULL
+ * where nobody asks for it. */
+static double *target_of(sphi_evaluation *e, int32_t field, int32_t *components) {
+  if (field == SPH_TARGET_VELOCITY_GRADIENT) {
+    *components = e->dim * e->dim;
+    return sphi_term_wanted(e, SPH_TERM_STRESS_RATE) ? e->rhs->scratch[SPHI_RHS_GRADV].ptr : NULL;
+  }
+  *components = sph_particles_components(e->set, field);
+  return sphi_rate_of(e, field);
+}
+
 sph_status sphi_rhs_host_terms(sphi_evaluation *e) {
   sph_rhs *rhs = e->rhs;
   for (int32_t k = 0; k < rhs->host_count; ++k) {
-    host_job job = {e, &rhs->host[k], sphi_rate_of(e, rhs->host[k].field), 0};
+    host_job job = {.e = e, .term = &rhs->host[k]};
+    job.out = target_of(e, rhs->host[k].field, &job.components);
     if (!job.out) continue;
-    job.components = sph_particles_components(e->set, rhs->host[k].field);
     sphi_parallel(rhs->base.ctx, e->a.n, GRAIN, host_range, &job);
   }
   return SPH_OK;
