@@ -36,6 +36,7 @@ extern "C" {
  *   pressure gradient                       m, rho, p
  *   Monaghan's viscosity                    v, m, rho, c
  *   bulk viscosity                          v, m, rho; c for its linear and Hernquist-Katz terms
+ *   total-Lagrangian operators              m, rho, gradient_matrix; hourglass control also c
  *
  * h is that of the build: a larger one misses pairs, which goes unnoticed. */
 typedef struct sph_operands {
@@ -213,6 +214,76 @@ SPH_API sph_status sph_artificial_stress(int32_t dim, int64_t n, const double *s
  * usual epsilon 0.5. out: rows * dim, to be added to dx/dt. Since 0.1. */
 SPH_API sph_status sph_xsph(sph_neighbors *list, const sph_kernel *kernel, const sph_operands *a,
                             double epsilon, double *out);
+
+/* ---- Total-Lagrangian operators --------------------------------------------------------------
+ *
+ * The operands describe the reference configuration: x are the reference positions X, on which the
+ * list was built, m, rho and h the masses, densities and smoothing lengths there, gradient_matrix
+ * the B^-1 of all n (sph_gradient_matrix() with rows = n). X_ij, V_j and g_ij belong to it too.
+ * Current positions x and the tensors are extra arguments: n * dim and n * dim * dim, row-major.
+ * The displacements u = x - X enter, so that small strains do not cancel, and a periodic axis wraps
+ * X_ij alone.
+ *
+ * Each call first computes what the kernel says of each pair, which the list keeps room for (8
+ * bytes a pair), and then sums: two sweeps. The composed right-hand side (rhs.h) computes it once.
+ *
+ * Sources: R. Vignjevic, J. Reveles, J. Campbell, CMES 14 (2006) 181; G. C. Ganzenmueller, Comput.
+ * Methods Appl. Mech. Engrg. 286 (2015) 87. He (3.27), (3.28) prints a total-Lagrangian form with
+ * the Cauchy stress in place of P, which is right for small deformations and rotations only. */
+
+/* F_i = sum V_j (x_j - x_i) (x) g~_ij, computed as 1 + sum V_j (u_j - u_i) (x) g~_ij: the same where
+ * B_i has an inverse; where it has none and the plain gradient stands in, a body at rest still has
+ * F = 1. Exact for linear deformations. F: rows * dim * dim, F[a * dim + b] = d x_a / d X_b.
+ * SPH_ERR_ARG also: x or gradient_matrix NULL. Since 0.1. */
+SPH_API sph_status sph_deformation_gradient(sph_neighbors *list, const sph_kernel *kernel,
+                                            const sph_operands *a, const double *x, double *F);
+
+/* Forms of dv_i/dt from the first Piola-Kirchhoff stress. With a = V a0 the energy is sum V_i
+ * psi(F_i). Published with m_j (P_i / rho_i^2 + P_j / rho_j^2), which is the same where the
+ * reference density is uniform; where it is not, only the volumes below derive from an energy. */
+enum {
+  SPH_PIOLA_CONSERVATIVE = 1, /* (1/rho_i) sum V_j (P_i B_i^-1 + P_j B_j^-1) g_ij. Momentum is kept to
+                               * rounding; with F of sph_deformation_gradient() and P = d psi / d F
+                               * the force is minus the gradient of sum V_i psi(F_i), so that energy
+                               * and, for objective psi, angular momentum are kept too */
+  SPH_PIOLA_SUMMED = 2        /* (1/rho_i) sum V_j (P_i + P_j) g~_ij. Where gradient_matrix is NULL:
+                               * g_ij, and momentum is kept; else exact in the interior for linear
+                               * P. Neither derives from an energy */
+};
+
+/* dv_i/dt from P in the form SPH_PIOLA_*. P of all n. dvdt: rows * dim. SPH_ERR_ARG also: P NULL,
+ * unknown form, CONSERVATIVE without gradient_matrix. Since 0.1. */
+SPH_API sph_status sph_piola_divergence(sph_neighbors *list, const sph_kernel *kernel,
+                                        const sph_operands *a, int32_t form, const double *P,
+                                        double *dvdt);
+
+/* Forms of hourglass control. F knows nothing of motions that are orthogonal to its sum, the
+ * zero-energy modes. Springs draw each pair to where F says it should be. With the deviations
+ *   e_i = F_i X_ij - x_ij  (e_j likewise with F_j)
+ * and the moduli E_i = rho_i c_i^2, c the sound speed of the operands,
+ *   m_i dv_i/dt = (alpha/2) sum V_i V_j s_ij (E_i e_i + E_j e_j). */
+enum {
+  /* All of e, s_ij = -(dW/dr)/r. F is the least-squares fit of the deformation with just these
+   * weights, so that a change of F does no work, and the force is minus the gradient of
+   *   (alpha/4) sum_i V_i E_i sum_j V_j s_ij |e_i|^2,
+   * which is frame-indifferent: energy, momentum and angular momentum are kept. Costs next to
+   * nothing in the composed right-hand side. In no source. */
+  SPH_HOURGLASS_VARIATIONAL = 1,
+  /* The part of e along x_ij, s_ij = W / X_ij^2: Ganzenmueller (2015), where E is
+   * Young's modulus: take c = sqrt(E / rho) for his figures. Central, so momentum and angular
+   * momentum are kept; the work that a change of F does is left out, so energy is not. */
+  SPH_HOURGLASS_CENTRAL = 2
+};
+
+/* dv_i/dt by hourglass control SPH_HOURGLASS_*. x, F: of all n. dvdt: rows * dim. energy: NULL, or
+ * rows: of the springs of each particle, (alpha/4) V_i E_i sum_j V_j s_ij |e_i|^2 (CENTRAL: of the
+ * part along x_ij). alpha around 0.1 to 1; it adds alpha rho c^2 of stiffness at most, to be
+ * thought of in the time step. SPH_ERR_ARG also: x, F or gradient_matrix NULL, c missing, unknown
+ * form, alpha negative or not finite. Since 0.1. */
+SPH_API sph_status sph_hourglass_force(sph_neighbors *list, const sph_kernel *kernel,
+                                       const sph_operands *a, int32_t form, double alpha,
+                                       const double *x, const double *F, double *dvdt,
+                                       double *energy);
 
 #ifdef __cplusplus
 }

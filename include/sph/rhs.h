@@ -23,15 +23,53 @@ enum {
   SPH_TERM_CONTINUITY = 1,     /* c; RHO; form SPH_CONTINUITY_* */
   SPH_TERM_PRESSURE = 2,       /* c; V; form SPH_PRESSURE_* */
   SPH_TERM_STRESS = 3,         /* c; V; form SPH_STRESS_*. CONSERVATIVE is corrected as it is */
-  SPH_TERM_STRESS_RATE = 4,    /* c; SIGMA: velocity gradient, then the phase's material */
-  SPH_TERM_MONAGHAN = 5,       /* c; V; alpha, beta */
+  SPH_TERM_STRESS_RATE = 4,    /* c; SIGMA: velocity gradient, then the phase's material; form
+                                * SPH_STRESS_RATE_* */
+  SPH_TERM_MONAGHAN = 5,       /* c; V; alpha, beta; form SPH_MONAGHAN_* */
   SPH_TERM_BULK_VISCOSITY = 6, /* c; V; neumann, linear, spacing; Hernquist-Katz: alpha, beta */
   SPH_TERM_XSPH = 7,           /* X; epsilon */
   SPH_TERM_BODY_FORCE = 8,     /* V; vector */
   SPH_TERM_MOTION = 9,         /* X: the velocity */
   /* c; V: sum m_j (W_ij / W(dp))^n (R_i + R_j) g~_ij, He 2015 (3.22), R by
    * sph_artificial_stress(); epsilon, power (n), spacing_ratio. */
-  SPH_TERM_ARTIFICIAL_STRESS = 10
+  SPH_TERM_ARTIFICIAL_STRESS = 10,
+  /* c where SUMMED; V; form SPH_PIOLA_*: F from X and X0, P from the phase's material (or from
+   * SIGMA, see below), then the divergence of P. */
+  SPH_TERM_FIRST_PIOLA = 11,
+  SPH_TERM_HOURGLASS = 12 /* V; form SPH_HOURGLASS_*; alpha, and E_i = rho_i c_i^2 */
+};
+
+/* Total-Lagrangian elasticity. With position_field X0 all pairs are those of X0: RHO, H, M (and the
+ * volumes M / RHO) are of the reference configuration, and what depends on it alone, gradient
+ * matrices and weights of pairs, is computed once and kept as long as neither the fields X0, H, M,
+ * RHO, C change (call sph_particles_touch() when the host writes them) nor the list or the set.
+ *
+ * Two ways:
+ *   - as printed in He 2015 (3.27), (3.28): SPH_TERM_STRESS and SPH_TERM_STRESS_RATE, with the
+ *     Cauchy stress and velocity gradients by X0. Right for small deformations and small rotations
+ *     only;
+ *   - in full: SPH_TERM_FIRST_PIOLA, with or without SPH_TERM_HOURGLASS. Fields X, X0, M, RHO, H;
+ *     C with hourglass control. An evaluation writes the fields F and PK (created where missing)
+ *     of all particles, ghosts included, so that the host can read them, or ask
+ *     sph_material_first_piola() for energies. With SPH_TERM_STRESS_RATE in the form
+ *     LAGRANGIAN among the terms, P = J sigma F^-T instead: for materials that have a rate of the
+ *     Cauchy stress, which is then integrated.
+ * The full form takes two sweeps over kept weights (one more for the form LAGRANGIAN). */
+
+/* Forms of SPH_TERM_STRESS_RATE. */
+enum {
+  SPH_STRESS_RATE_SPATIAL = 1,   /* velocity gradient by the positions of the pairs */
+  SPH_STRESS_RATE_LAGRANGIAN = 2 /* L = F' F^-1 with F' = sum V_j (v_j - v_i) (x) g~_ij, where
+                                  * position_field is X0 */
+};
+
+/* Forms of SPH_TERM_MONAGHAN. */
+enum {
+  SPH_MONAGHAN_LIST = 1, /* in the geometry of the pairs */
+  /* With position_field X0: Pi_ij from current x_ij and v_ij, h_ij the arithmetic mean, and
+   * dv_i/dt = -sum m_j Pi_ij (dW/dr)(X_ij) x_ij/|x_ij|: the weight of the reference along the line
+   * of today. Central and dissipative, zero in a rigid motion, which the form LIST is not there. */
+  SPH_MONAGHAN_CURRENT = 2
 };
 
 typedef struct sph_term {
@@ -39,7 +77,8 @@ typedef struct sph_term {
   int32_t kind;         /* SPH_TERM_*; must be given */
   int32_t form;         /* of the kind; 0 (default) = the first one */
   int32_t corrected;    /* nonzero: g~ with the matrix of the row's particle; default 0 */
-  double alpha, beta;   /* viscosities; default 0, as all numbers below but power */
+  double alpha, beta;   /* viscosities; alpha also hourglass control, >= 0; default 0, as all
+                         * numbers below but power */
   double epsilon;       /* XSPH, artificial stress */
   double neumann;       /* bulk viscosity: a_1 */
   double linear;        /* bulk viscosity: a_2 */
@@ -89,7 +128,8 @@ typedef int32_t (*sph_rhs_hook)(void *user, double t, sph_particles *set,
 typedef struct sph_rhs_options {
   size_t size;            /* set by sph_rhs_options_init() */
   int32_t position_field; /* geometry of the pairs: SPH_FIELD_X (default), or SPH_FIELD_X0 for a
-                           * frozen configuration */
+                           * frozen configuration. It is remembered by address and counters: after
+                           * destroying a set or list make a new right-hand side */
   int32_t update_list;    /* nonzero: sph_neighbors_update() before each evaluation; default 1 */
 } sph_rhs_options;
 
@@ -113,8 +153,8 @@ SPH_API sph_status sph_rhs_create(sph_context *ctx, sph_kernel *kernel,
 SPH_API void sph_rhs_destroy(sph_rhs *rhs);
 
 /* Append a term; copied. Each kind may come once. SPH_ERR_ARG: unknown kind or form, a parameter
- * not finite or out of range, twice the same kind, `corrected` on a term that cannot be.
- * SPH_ERR_VERSION. The list of terms is as before then. Since 0.1. */
+ * not finite or out of range, twice the same kind, `corrected` on a term that cannot be, a
+ * total-Lagrangian term or form without position_field X0. SPH_ERR_VERSION. The list of terms is as before then. Since 0.1. */
 SPH_API sph_status sph_rhs_add(sph_rhs *rhs, const sph_term *term);
 
 /* Append a host's own term that adds to the rate of `field`, which the set must have when it is
@@ -140,14 +180,16 @@ SPH_API sph_status sph_rhs_set_finish(sph_rhs *rhs, sph_rhs_hook fn, void *user)
  *
  * SPH_ERR_ARG: a rate array NULL, a field twice or unknown, a field that the terms need and that
  * the set lacks (named), a kernel or list that does not fit. SPH_ERR_STATE: SPH_TERM_STRESS_RATE
- * for a phase without material, a hook that changed the number of real particles, a list never
+ * or SPH_TERM_FIRST_PIOLA for a phase whose material has no such law, a hook that changed the number of real particles, a list never
  * built and not to be updated. SPH_ERR_STALE: a list that is not to be updated and holds no more.
- * SPH_RETRY, SPH_ERR_CALLBACK: from hooks and materials. SPH_ERR_NOMEM; and what
+ * SPH_RETRY, SPH_ERR_CALLBACK: from hooks and materials. SPH_ERR_NUMERIC: a deformation gradient
+ * outside the range of its material (the particle is named). SPH_ERR_NOMEM; and what
  * sph_neighbors_update() answers. After a failure the rate arrays are undefined, the set is as the
  * hooks left it.
  *
  * O(pairs). A steady call allocates nothing; rhs keeps what its terms need between sweeps: 8 dim^2
- * bytes a particle each for gradient matrices and for velocity gradients. Since 0.1. */
+ * bytes a particle each for gradient matrices and for velocity gradients, and for total-Lagrangian
+ * terms 8 bytes a stored pair (16 with CENTRAL) and at most 256 bytes a particle. Since 0.1. */
 SPH_API sph_status sph_rhs_evaluate(sph_rhs *rhs, sph_particles *set, sph_neighbors *list, double t,
                                     const sph_rate *rates, int32_t count);
 

@@ -24,7 +24,7 @@ struct sph_neighbors {
   double h_uniform; /* the h of every particle if all are equal, else 0 */
   double h_max;
   int64_t builds;
-  sphi_buffer scratch[4]; /* of the pair loops; they fill them, the list frees them on destroy */
+  sphi_buffer scratch[6]; /* of the pair loops; they fill them, the list frees them on destroy */
   struct sphi_neighbors_private *priv; /* grids, buffers, public rows, positions at the build */
 };
 

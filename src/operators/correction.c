@@ -15,8 +15,7 @@ sph_status sph_shepard_sum(sph_neighbors *list, const sph_kernel *kernel, const 
   return sphi_sweep_run(list, &sweep);
 }
 
-/* Adjugate and determinant: inverse = adjugate / det. */
-static double adjugate(int32_t d, const double *b, double *adj) {
+double sphi_adjugate(int32_t d, const double *b, double *adj) {
   if (d == 1) {
     adj[0] = 1.0;
     return b[0];
@@ -44,7 +43,7 @@ static double norm(int32_t d, const double *a) {
 
 int sphi_invert_gradient_matrix(int32_t dim, const double *b, double *inverse) {
   enum { CONDITION_LIMIT = 1000 };
-  double adj[9], det = adjugate(dim, b, adj);
+  double adj[9], det = sphi_adjugate(dim, b, adj);
   double size = norm(dim, b);
   /* a matrix far from the identity in size is as useless as a singular one */
   int good = isfinite(det) && size > 1e-3 &&

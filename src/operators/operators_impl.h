@@ -31,6 +31,9 @@ sphi_sweep sphi_sweep_of(const sph_kernel *kernel, const sph_operands *own, uint
 /* B_i to its inverse, or the identity where it is ill conditioned: 1 then, else 0. */
 int sphi_invert_gradient_matrix(int32_t dim, const double *b, double *inverse);
 
+/* Adjugate and determinant of a matrix: inverse = adjugate / det. */
+double sphi_adjugate(int32_t dim, const double *b, double *adj);
+
 /* The viscous pressure of one particle from its velocity divergence, He 2015 (3.14) to (3.17). */
 double sphi_bulk_pressure(const sph_bulk_viscosity *o, double div, double h, double rho, double c);
 

@@ -3,8 +3,8 @@
 
 #include <string.h>
 
-/* Components of the built-in fields: a number, or one of the two that depend on dim. */
-enum { VECTOR = -1, TENSOR = -2 };
+/* Components of the built-in fields: a number, or one of those that depend on dim. */
+enum { VECTOR = -1, TENSOR = -2, MATRIX = -3 };
 typedef struct builtin_field {
   const char *name;
   int32_t components;
@@ -21,10 +21,13 @@ static const builtin_field builtins[SPHI_BUILTIN_FIELDS] = {[SPH_FIELD_X] = {"x"
                                                             [SPH_FIELD_SIGMA] = {"sigma", TENSOR},
                                                             [SPH_FIELD_X0] = {"x0", VECTOR},
                                                             [SPH_FIELD_A] = {"a", VECTOR},
-                                                            [SPH_FIELD_SPACING] = {"spacing", 1}};
+                                                            [SPH_FIELD_SPACING] = {"spacing", 1},
+                                                            [SPH_FIELD_F] = {"F", MATRIX},
+                                                            [SPH_FIELD_PK] = {"PK", MATRIX}};
 
 static int32_t resolve_components(int32_t code, int32_t dim) {
   if (code == VECTOR) return dim;
+  if (code == MATRIX) return dim * dim;
   return code == TENSOR ? dim * (dim + 1) / 2 : code;
 }
 

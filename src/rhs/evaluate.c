@@ -25,6 +25,10 @@ int sphi_term_wanted(const sphi_evaluation *e, int32_t kind) {
   return e->rhs->terms[kind].kind && sphi_rate_of(e, sphi_term_field(kind)) != NULL;
 }
 
+int sphi_form_wanted(const sphi_evaluation *e, int32_t kind, int32_t form) {
+  return sphi_term_wanted(e, kind) && e->rhs->terms[kind].form == form;
+}
+
 static sph_status check_rates(const sphi_evaluation *e) {
   sph_context *ctx = e->rhs->base.ctx;
   if (e->count < 0 || (e->count > 0 && !e->rates))
@@ -68,7 +72,7 @@ static sph_status require(sphi_evaluation *e, const void *array, int32_t field, 
 }
 
 static int needs_c(const sph_term *t) {
-  return t->kind == SPH_TERM_MONAGHAN ||
+  return t->kind == SPH_TERM_MONAGHAN || t->kind == SPH_TERM_HOURGLASS ||
          (t->kind == SPH_TERM_BULK_VISCOSITY && (t->linear != 0.0 || t->alpha != 0.0));
 }
 
@@ -125,10 +129,16 @@ static sph_status check_fresh(const sphi_evaluation *e) {
 
 static sph_status update_list(sphi_evaluation *e) {
   const sph_operands *a = &e->a;
-  if (!e->rhs->options.update_list) return check_fresh(e);
-  if (e->rhs->options.position_field == SPH_FIELD_X)
-    return sph_neighbors_update(e->list, e->set, NULL);
-  return sph_neighbors_update_arrays(e->list, a->dim, a->n, a->x, a->h, a->h0, NULL);
+  sph_status s;
+  if (sphi_frozen_unchanged(e)) return SPH_OK;
+  if (!e->rhs->options.update_list)
+    s = check_fresh(e);
+  else if (e->rhs->options.position_field == SPH_FIELD_X)
+    s = sph_neighbors_update(e->list, e->set, NULL);
+  else
+    s = sph_neighbors_update_arrays(e->list, a->dim, a->n, a->x, a->h, a->h0, NULL);
+  if (!s) sphi_frozen_remember(e);
+  return s;
 }
 
 static sph_status gather(sphi_evaluation *e) {
@@ -165,11 +175,13 @@ static sph_status evaluate(sphi_evaluation *e) {
   if (!s) s = check_rates(e);
   if (!s) s = prepare(e);
   if (!s) s = check_fields(e);
+  if (!s) s = sphi_frozen_check(e);
   if (!s) s = update_list(e);
   if (!s) s = sphi_rhs_pressures(e);
   if (s) return s;
   clear_rates(e);
   if (e->rows > 0) s = sphi_rhs_sweeps(e);
+  if (!s && e->rows > 0) s = sphi_rhs_frozen_terms(e);
   if (!s && e->rows > 0) s = sphi_rhs_host_terms(e);
   if (!s && e->rows > 0) s = sphi_rhs_stress_rates(e);
   if (s) return s;

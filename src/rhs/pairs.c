@@ -29,7 +29,7 @@ static sphi_spec spec_of(const sphi_evaluation *e) {
                     .stress = SPH_STRESS_SUMMED};
   for (int k = 0; k < SWEEP_TERMS; ++k) {
     const sph_term *t = &e->rhs->terms[sweep_terms[k].kind];
-    if (!sphi_term_wanted(e, sweep_terms[k].kind)) continue;
+    if (!sphi_term_wanted(e, sweep_terms[k].kind) || sphi_term_frozen(t)) continue;
     spec.terms |= sweep_terms[k].term;
     if (t->corrected) spec.corrected |= sweep_terms[k].term;
     if (t->kind == SPH_TERM_CONTINUITY) spec.continuity = t->form;
@@ -45,14 +45,21 @@ static int needs_matrix(const sphi_spec *spec) {
 }
 
 /* Ghosts need a matrix only where the conservative form reads that of j. */
-static sph_status make_matrices(sphi_evaluation *e) {
+sph_status sphi_rhs_matrices(sphi_evaluation *e) {
   sph_operands all = e->a;
+  sph_status s = SPH_OK;
   all.rows = all.n;
-  sph_status s = reserve(e, SPHI_RHS_MATRIX, all.n * e->dim * e->dim);
-  if (!s)
-    s = sphi_gradient_matrices(e->list, e->rhs->kernel, &all, scratch(e, SPHI_RHS_MATRIX), NULL);
-  if (!s) e->a.gradient_matrix = scratch(e, SPHI_RHS_MATRIX);
-  return s;
+  all.gradient_matrix = NULL;
+  if (!(e->rhs->frozen_has & SPHI_FROZEN_HAS_MATRIX)) {
+    s = reserve(e, SPHI_RHS_MATRIX, all.n * e->dim * e->dim);
+    if (!s)
+      s = sphi_gradient_matrices(e->list, e->rhs->kernel, &all, scratch(e, SPHI_RHS_MATRIX), NULL);
+  }
+  if (s) return s;
+  if (e->rhs->options.position_field == SPH_FIELD_X0)
+    e->rhs->frozen_has |= SPHI_FROZEN_HAS_MATRIX;
+  e->a.gradient_matrix = scratch(e, SPHI_RHS_MATRIX);
+  return SPH_OK;
 }
 
 static sph_status make_bulk(sphi_evaluation *e) {
@@ -115,7 +122,7 @@ static sph_status make_inputs(sphi_evaluation *e, sphi_sweep *sweep) {
   const sph_term *monaghan = &e->rhs->terms[SPH_TERM_MONAGHAN];
   sph_status s = SPH_OK;
   uint32_t terms = sweep->spec.terms;
-  if (needs_matrix(&sweep->spec)) s = make_matrices(e);
+  if (needs_matrix(&sweep->spec)) s = sphi_rhs_matrices(e);
   if (!s && (terms & SPHI_BULK)) s = make_bulk(e);
   if (!s && (terms & SPHI_ARTSTRESS)) s = make_art(e);
   sweep->alpha = monaghan->alpha;

@@ -34,6 +34,7 @@ static sph_material_block block_of(const law_job *j, int64_t lo, int64_t hi) {
   b.n = hi - lo;
   if (j->property == SPHI_MATERIAL_STRESS_RATE)
     b.velocity_gradient = (const double *)j->e->rhs->scratch[SPHI_RHS_GRADV].ptr + lo * d * d;
+  if (j->property == SPHI_MATERIAL_FIRST_PIOLA) b.deformation_gradient = j->e->F + lo * d * d;
   b.sigma = shifted(a->sigma, lo * sph_sym_components(d));
   b.rho = shifted(a->rho, lo);
   b.e = shifted(sph_particles_field_const(j->e->set, SPH_FIELD_E), lo);
@@ -46,6 +47,9 @@ static sph_status run_law(const law_job *j, int64_t lo, int64_t hi) {
   sph_material_block b = block_of(j, lo, hi);
   if (j->property == SPHI_MATERIAL_STRESS_RATE)
     return sphi_material_stress_rate_quiet(m, &b, j->out + lo * sph_sym_components(b.dim));
+  if (j->property == SPHI_MATERIAL_FIRST_PIOLA)
+    return sphi_material_first_piola_quiet(m, b.dim, b.n, b.deformation_gradient,
+                                           j->out + lo * b.dim * b.dim, NULL);
   return sphi_material_pressure_quiet(m, &b, j->out + lo);
 }
 
@@ -73,8 +77,10 @@ static sph_status check_laws(const law_job *j, int64_t n, int required) {
     if (!m && required)
       return sphi_fail(ctx, SPH_ERR_STATE,
                        "sph_rhs_evaluate: particle %lld has phase %d, which has no material with "
-                       "a stress rate",
-                       (long long)i, j->phase[i]);
+                       "a %s",
+                       (long long)i, j->phase[i],
+                       j->property == SPHI_MATERIAL_FIRST_PIOLA ? "first Piola-Kirchhoff stress"
+                                                                : "stress rate");
     if (!m) continue;
     sph_material_block b = block_of(j, i, i + 1);
     sph_status s = sphi_material_check_block(m, j->property, &b);
@@ -121,6 +127,15 @@ sph_status sphi_rhs_stress_rates(sphi_evaluation *e) {
   if (!sphi_term_wanted(e, SPH_TERM_STRESS_RATE)) return SPH_OK;
   sph_status s = check_laws(&j, e->rows, 1);
   return s ? s : run_laws(&j, e->rows);
+}
+
+sph_status sphi_rhs_first_piola(sphi_evaluation *e) {
+  law_job j = {.e = e,
+               .property = SPHI_MATERIAL_FIRST_PIOLA,
+               .phase = sphi_particles_phases(e->set),
+               .out = e->P};
+  sph_status s = check_laws(&j, e->a.n, 1);
+  return s ? s : run_laws(&j, e->a.n);
 }
 
 static void point_range(void *job, int64_t lo, int64_t hi, int32_t worker) {

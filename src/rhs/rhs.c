@@ -72,12 +72,18 @@ static int32_t last_form(int32_t kind) {
     case SPH_TERM_CONTINUITY: return SPH_CONTINUITY_NUMBER;
     case SPH_TERM_PRESSURE: return SPH_PRESSURE_DIFFERENCE;
     case SPH_TERM_STRESS: return SPH_STRESS_CONSERVATIVE;
+    case SPH_TERM_STRESS_RATE: return SPH_STRESS_RATE_LAGRANGIAN;
+    case SPH_TERM_MONAGHAN: return SPH_MONAGHAN_CURRENT;
+    case SPH_TERM_FIRST_PIOLA: return SPH_PIOLA_SUMMED;
+    case SPH_TERM_HOURGLASS: return SPH_HOURGLASS_CENTRAL;
     default: return 0;
   }
 }
 
 static int can_be_corrected(const sph_term *t) {
   if (t->kind == SPH_TERM_STRESS) return t->form != SPH_STRESS_CONSERVATIVE;
+  if (t->kind == SPH_TERM_FIRST_PIOLA) return t->form == SPH_PIOLA_SUMMED;
+  if (sphi_term_frozen(t)) return 0;
   return t->kind == SPH_TERM_CONTINUITY || t->kind == SPH_TERM_PRESSURE ||
          t->kind == SPH_TERM_STRESS_RATE || t->kind == SPH_TERM_MONAGHAN ||
          t->kind == SPH_TERM_BULK_VISCOSITY || t->kind == SPH_TERM_ARTIFICIAL_STRESS;
@@ -96,6 +102,8 @@ static sph_status check_numbers(sph_context *ctx, const sph_kernel *kernel, cons
       !isfinite(t->vector[0]) || !isfinite(t->vector[1]) || !isfinite(t->vector[2]))
     return sphi_fail(ctx, SPH_ERR_ARG, "sph_rhs_add: a parameter of term %d is not finite",
                      t->kind);
+  if (t->kind == SPH_TERM_HOURGLASS && t->alpha < 0.0)
+    return sphi_fail(ctx, SPH_ERR_ARG, "sph_rhs_add: hourglass control with alpha %g", t->alpha);
   if (t->kind == SPH_TERM_BULK_VISCOSITY && (t->neumann != 0.0 || t->linear != 0.0) &&
       !(t->spacing > 0.0))
     return sphi_fail(ctx, SPH_ERR_ARG, "sph_rhs_add: bulk viscosity with spacing %g", t->spacing);
@@ -118,6 +126,10 @@ static sph_status check_term(sph_rhs *rhs, sph_term *t) {
   if (t->form == 0) t->form = 1;
   if (t->corrected && !can_be_corrected(t))
     return sphi_fail(ctx, SPH_ERR_ARG, "sph_rhs_add: kind %d, form %d has no corrected gradient",
+                     t->kind, t->form);
+  if (sphi_term_frozen(t) && rhs->options.position_field != SPH_FIELD_X0)
+    return sphi_fail(ctx, SPH_ERR_ARG,
+                     "sph_rhs_add: kind %d, form %d needs a right-hand side with position_field X0",
                      t->kind, t->form);
   return check_numbers(ctx, rhs->kernel, t);
 }

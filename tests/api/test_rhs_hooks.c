@@ -282,6 +282,7 @@ static void test_frozen(void **state) {
   assert_memory_equal(first, want, (size_t)(s.rows * 2) * sizeof *want);
   assert_memory_equal(later, want, (size_t)(s.rows * 2) * sizeof *want);
   x0[0] += 0.1;
+  check_ok(sph_particles_touch(s.set, SPH_FIELD_X0));
   double *moved = rh_rates(&s, frozen, SPH_FIELD_V);
   assert_memory_not_equal(moved, want, (size_t)(s.rows * 2) * sizeof *want);
   sph_rhs *fixed = with_options(&s, SPH_FIELD_X0, 0);
