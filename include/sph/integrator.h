@@ -138,7 +138,8 @@ enum {
  * Ghosts may be added and removed in here. The real particles must stay: another count or order
  * ends the step with SPH_ERR_STATE. Bound values should not be changed: to hold a value give it the
  * rate 0 (what is overwritten here lasts for this stage, and with RKC also takes part in the next).
- * Do not step, save or restore the same integrator in here.
+ * Binding, stepping, saving and restoring the same integrator in here answer SPH_ERR_STATE; do not
+ * destroy it, nor what the step uses.
  *
  * 0: fine; positive: the step is abandoned with SPH_RETRY; negative: SPH_ERR_CALLBACK (or, for a
  * status of the library, that status). */
@@ -196,12 +197,13 @@ SPH_API void sph_integrator_destroy(sph_integrator *it);
 
 /* Bind a field of the set that later steps are given; its real particles are advanced. Whether the
  * set has it shows in the step; a built-in field that does not exist yet is then created.
- * SPH_ERR_ARG: bound twice, negative; SPH_ERR_LIMIT: more than 32 items. Binding drops what was
- * saved. Since 0.1. */
+ * SPH_ERR_ARG: bound twice, negative; SPH_ERR_LIMIT: more than 32 items; SPH_ERR_STATE: within a
+ * step. Binding drops what was saved. Since 0.1. */
 SPH_API sph_status sph_integrator_bind_field(sph_integrator *it, int32_t field);
 /* Bind a plain array of n doubles (n >= 0), the host's, which must stay where it is; its entry in
  * the rates has field -1 - k for the k-th item bound (from 0). SPH_ERR_ARG: overlaps an array bound
- * before. SPH_ERR_UNSUPPORTED: leapfrog, which does not take arrays. SPH_ERR_LIMIT. Since 0.1. */
+ * before. SPH_ERR_UNSUPPORTED: leapfrog, which does not take arrays. SPH_ERR_LIMIT, SPH_ERR_STATE.
+ * Since 0.1. */
 SPH_API sph_status sph_integrator_bind_array(sph_integrator *it, double *values, int64_t n);
 
 /* The right-hand side as a callback. The last one set, here or below, counts. Since 0.1. */

@@ -137,7 +137,8 @@ SPH_API const double *sph_particles_field_const(const sph_particles *set, int32_
  * array is taken back by lending NULL, upon which the field holds a copy of its own. Values the
  * field had before are dropped. The set cannot grow beyond `capacity` meanwhile. Lending NULL to
  * a field that has its own array does nothing; capacity is not read then.
- * SPH_ERR_ARG: unknown field, capacity below the present count, the set's own array.
+ * SPH_ERR_ARG: unknown field, capacity below the present count, an array that overlaps another of
+ * the set, its own or lent.
  * SPH_ERR_NOMEM (taking back; the array is still lent then). Since 0.1. */
 SPH_API sph_status sph_particles_lend(sph_particles *set, int32_t field, double *array,
                                       int64_t capacity);

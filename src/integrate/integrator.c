@@ -245,6 +245,8 @@ void sph_integrator_destroy(sph_integrator *it) {
 /* ---- binding ----------------------------------------------------------------------------- */
 
 static sph_status check_room(const sph_integrator *it) {
+  if (it->busy)
+    return sphi_fail(it->base.ctx, SPH_ERR_STATE, "nothing can be bound while a step is running");
   if (it->items < SPHI_ITEMS_MAX) return SPH_OK;
   return sphi_fail(it->base.ctx, SPH_ERR_LIMIT, "more than %d items bound", (int)SPHI_ITEMS_MAX);
 }

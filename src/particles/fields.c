@@ -57,8 +57,9 @@ size_t sphi_field_bytes(const sphi_field *f, int64_t particles) {
 }
 
 sph_status sphi_field_create(sph_particles *set, sphi_field *f) {
-  f->values = sphi_calloc(set->object.ctx, sphi_field_bytes(f, set->capacity));
+  f->values = sphi_alloc(set->object.ctx, sphi_field_bytes(f, set->capacity));
   if (f->values == NULL) return SPH_ERR_NOMEM;
+  memset(f->values, 0, sphi_field_bytes(f, set->count)); /* the rest when particles are added */
   f->lent = -1;
   f->revision++;
   return SPH_OK;
@@ -164,6 +165,23 @@ const double *sph_particles_field_const(const sph_particles *set, int32_t field)
   return f != NULL ? f->values : NULL;
 }
 
+/* The other field whose array overlaps the host's, or the field itself where the array is its own:
+ * growth would free what is lent, sorting would reorder it twice. Addresses as numbers, for
+ * pointers into different arrays must not be compared. */
+static const sphi_field *overlapping(const sph_particles *set, const sphi_field *wanted,
+                                     const double *array, int64_t capacity) {
+  uintptr_t begin = (uintptr_t)array;
+  size_t bytes = sphi_field_bytes(wanted, capacity);
+  for (int32_t s = 0; s < SPHI_FIELD_SLOTS; s++) {
+    const sphi_field *f = &set->fields[s];
+    uintptr_t own = (uintptr_t)f->values;
+    if (f->values == NULL || (f == wanted && f->lent >= 0)) continue;
+    size_t own_bytes = sphi_field_bytes(f, f->lent >= 0 ? f->lent : set->capacity);
+    if (begin == own || (begin > own ? begin - own < own_bytes : own - begin < bytes)) return f;
+  }
+  return NULL;
+}
+
 /* Put the host's array in place of the field's. */
 static void lend(sph_particles *set, sphi_field *f, double *array, int64_t capacity) {
   if (f->lent < 0) sphi_free(set->object.ctx, f->values, sphi_field_bytes(f, set->capacity));
@@ -173,7 +191,7 @@ static void lend(sph_particles *set, sphi_field *f, double *array, int64_t capac
 
 /* Replace the host's array by a copy of our own. */
 static sph_status take_back(sph_particles *set, sphi_field *f) {
-  double *own = sphi_calloc(set->object.ctx, sphi_field_bytes(f, set->capacity));
+  double *own = sphi_alloc(set->object.ctx, sphi_field_bytes(f, set->capacity));
   if (own == NULL) return SPH_ERR_NOMEM;
   memcpy(own, f->values, sphi_field_bytes(f, set->count));
   f->values = own;
@@ -187,13 +205,15 @@ sph_status sph_particles_lend(sph_particles *set, int32_t field, double *array, 
   sphi_field *f = sphi_set_field(set, field);
   if (f == NULL) return unknown_field(set, field, "lend");
   if (array == NULL && f->lent < 0) return SPH_OK; /* nothing to take back */
-  if (array != NULL && array == f->values && f->lent < 0)
-    return sphi_fail(set->object.ctx, SPH_ERR_ARG,
-                     "lend: the array for field '%s' is the set's own", f->name);
   if (array != NULL && capacity < set->count)
     return sphi_fail(set->object.ctx, SPH_ERR_ARG,
                      "lend: the array for field '%s' holds %lld particles, the set has %lld",
                      f->name, (long long)capacity, (long long)set->count);
+  const sphi_field *other = array != NULL ? overlapping(set, f, array, capacity) : NULL;
+  if (other != NULL)
+    return sphi_fail(set->object.ctx, SPH_ERR_ARG,
+                     "lend: the array for field '%s' overlaps that of field '%s' (%s)", f->name,
+                     other->name, other->lent < 0 ? "the set's own" : "lent too");
   if (array != NULL)
     lend(set, f, array, capacity);
   else

@@ -404,6 +404,8 @@ static void test_lend_refusals(void **state) {
           "'x' holds 2 particles, the set has 3");
   refused(ctx, sph_particles_lend(set, SPH_FIELD_X, a, -1), SPH_ERR_ARG, "holds -1");
   refused(ctx, sph_particles_lend(set, SPH_FIELD_X, own, 3), SPH_ERR_ARG, "set's own");
+  refused(ctx, sph_particles_lend(set, SPH_FIELD_M, own, 3), SPH_ERR_ARG, "of field 'x'");
+  refused(ctx, sph_particles_lend(set, SPH_FIELD_M, own + 1, 3), SPH_ERR_ARG, "of field 'x'");
   uint64_t generation = sph_particles_generation(set);
   check_ok(sph_particles_lend(set, SPH_FIELD_X, NULL, 0)); /* nothing is lent */
   assert_ptr_equal(field(set, SPH_FIELD_X), own);
@@ -411,6 +413,10 @@ static void test_lend_refusals(void **state) {
   check_ok(sph_particles_lend(set, SPH_FIELD_X, a, 8));
   check_ok(sph_particles_lend(set, SPH_FIELD_X, b, 3)); /* another one in its place */
   assert_ptr_equal(field(set, SPH_FIELD_X), b);
+  check_ok(sph_particles_lend(set, SPH_FIELD_X, b + 1, 5)); /* may overlap its predecessor */
+  refused(ctx, sph_particles_lend(set, SPH_FIELD_M, b, 3), SPH_ERR_ARG, "lent too");
+  refused(ctx, sph_particles_lend(set, SPH_FIELD_M, b + 5, 3), SPH_ERR_ARG, "lent too");
+  check_ok(sph_particles_lend(set, SPH_FIELD_M, a, 8));
   sph_particles_destroy(set);
   sph_context_destroy(ctx);
 }

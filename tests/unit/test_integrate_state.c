@@ -23,6 +23,9 @@ static int32_t misbehave(trap *p, double t, sph_particles *set, const sph_rate *
   if (p->what == 3) check_ok(sph_particles_remove(set, 1, &seventh));
   if (p->what == 4) check_ok(sph_particles_sort(set, 0.01, NULL));
   if (p->what == 5) return sph_integrator_step(p->it, set, t, 0.1, NULL);
+  if (p->what == 6) return sph_integrator_bind_field(p->it, SPH_FIELD_E);
+  if (p->what == 7) return sph_integrator_save(p->it, set);
+  if (p->what == 8) return sph_integrator_restore(p->it, set);
   return p->answer;
 }
 
@@ -112,7 +115,7 @@ static void test_library_failure(void **state) {
 }
 static void test_step_within_step(void **state) {
   (void)state;
-  check_failure(0, 5, SPH_ERR_STATE, "running");
+  for (int what = 5; what <= 8; ++what) check_failure(0, what, SPH_ERR_STATE, "running");
 }
 static void test_particles_added(void **state) {
   (void)state;
