@@ -37,10 +37,6 @@ double sphi_adjugate(int32_t dim, const double *b, double *adj);
 /* The viscous pressure of one particle from its velocity divergence, He 2015 (3.14) to (3.17). */
 double sphi_bulk_pressure(const sph_bulk_viscosity *o, double div, double h, double rho, double c);
 
-/* Artificial stress of one particle; r may be sigma. */
-void sphi_artificial_stress(int32_t dim, const double *sigma, double rho, double epsilon,
-                            double *r);
-
 /* B^-1 of every row, by a sweep and a pointwise inverse. */
 sph_status sphi_gradient_matrices(sph_neighbors *list, const sph_kernel *kernel,
                                   const sph_operands *own, double *inverse, int64_t *fallbacks);

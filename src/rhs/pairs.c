@@ -1,5 +1,6 @@
 /* The pair sums of an evaluation: what must come before (gradient matrices, viscous pressures,
  * artificial stress), then one sweep for all terms. */
+#include "../sweep/artificial.h"
 #include "rhs_impl.h"
 
 #include <string.h>
@@ -8,10 +9,14 @@ static const struct {
   int32_t kind;
   uint32_t term;
 } sweep_terms[] = {
-    {SPH_TERM_CONTINUITY, SPHI_CONTINUITY}, {SPH_TERM_PRESSURE, SPHI_PRESSURE},
-    {SPH_TERM_STRESS, SPHI_STRESS},         {SPH_TERM_STRESS_RATE, SPHI_GRADV},
-    {SPH_TERM_MONAGHAN, SPHI_MONAGHAN},     {SPH_TERM_BULK_VISCOSITY, SPHI_BULK},
-    {SPH_TERM_XSPH, SPHI_XSPH},             {SPH_TERM_ARTIFICIAL_STRESS, SPHI_ARTSTRESS},
+    {SPH_TERM_CONTINUITY, SPHI_CONTINUITY},
+    {SPH_TERM_PRESSURE, SPHI_PRESSURE},
+    {SPH_TERM_STRESS, SPHI_STRESS},
+    {SPH_TERM_STRESS_RATE, SPHI_GRADV},
+    {SPH_TERM_MONAGHAN, SPHI_MONAGHAN},
+    {SPH_TERM_BULK_VISCOSITY, SPHI_BULK},
+    {SPH_TERM_XSPH, SPHI_XSPH},
+    {SPH_TERM_ARTIFICIAL_STRESS, SPHI_ARTSTRESS},
 };
 
 enum { SWEEP_TERMS = sizeof sweep_terms / sizeof *sweep_terms };
@@ -77,6 +82,7 @@ static sph_status make_bulk(sphi_evaluation *e) {
 typedef struct art_job {
   sphi_evaluation *e;
   double *out;
+  sphi_artificial_fn stress;
 } art_job;
 
 static void art_range(void *job, int64_t lo, int64_t hi, int32_t worker) {
@@ -85,15 +91,14 @@ static void art_range(void *job, int64_t lo, int64_t hi, int32_t worker) {
   double epsilon = j->e->rhs->terms[SPH_TERM_ARTIFICIAL_STRESS].epsilon;
   int32_t c = sph_sym_components(a->dim);
   (void)worker;
-  for (int64_t i = lo; i < hi; ++i)
-    sphi_artificial_stress(a->dim, a->sigma + i * c, a->rho[i], epsilon, j->out + i * c);
+  j->stress(a->dim, hi - lo, a->sigma + lo * c, a->rho + lo, 0.0, epsilon, j->out + lo * c);
 }
 
 static sph_status make_art(sphi_evaluation *e) {
   enum { GRAIN = 1024 };
   sph_status s = reserve(e, SPHI_RHS_ART, e->a.n * sph_sym_components(e->dim));
   if (s) return s;
-  art_job job = {e, scratch(e, SPHI_RHS_ART)};
+  art_job job = {e, scratch(e, SPHI_RHS_ART), sphi_artificial(sphi_isa(e->rhs->base.ctx))};
   sphi_parallel(e->rhs->base.ctx, e->a.n, GRAIN, art_range, &job);
   return SPH_OK;
 }

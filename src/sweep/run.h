@@ -2,6 +2,7 @@
 #ifndef SPHI_RUN_H
 #define SPHI_RUN_H
 
+#include "artificial.h"
 #include "sweep.h"
 
 /* Offsets in a record, in doubles; -1 where a field is not packed. */

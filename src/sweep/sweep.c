@@ -31,6 +31,14 @@ static sphi_rows_fn choose_rows(sph_context *ctx, sphi_spec *spec, int32_t dim) 
   }
 }
 
+sphi_artificial_fn sphi_artificial(int32_t isa) {
+  switch (isa) {
+    case SPH_ISA_AVX512: return sphi_artificial_avx512;
+    case SPH_ISA_AVX2: return sphi_artificial_avx2;
+    default: return sphi_artificial_portable;
+  }
+}
+
 static void set_periods(sphi_run *run) {
   run->wrap = 0;
   for (int a = 0; a < 3; ++a) {

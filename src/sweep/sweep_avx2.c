@@ -4,6 +4,8 @@
 #endif
 #include "rows.inc"
 
+#include "artificial.inc"
 #include "instances.inc"
 
 sphi_rows_fn sphi_rows_avx2(sphi_spec *spec, int32_t dim) { return find_rows(spec, dim); }
+const sphi_artificial_fn sphi_artificial_avx2 = artificial;
