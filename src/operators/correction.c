@@ -1,7 +1,7 @@
 /* Shepard sums and the kernel-gradient matrix. */
+#include "../sweep/invert.h"
 #include "operators_impl.h"
 
-#include <math.h>
 #include <string.h>
 
 sph_status sph_shepard_sum(sph_neighbors *list, const sph_kernel *kernel, const sph_operands *a,
@@ -13,44 +13,6 @@ sph_status sph_shepard_sum(sph_neighbors *list, const sph_kernel *kernel, const 
   sphi_sweep sweep = sphi_sweep_of(kernel, &own, SPHI_SHEPARD);
   sweep.shepard = sum;
   return sphi_sweep_run(list, &sweep);
-}
-
-double sphi_adjugate(int32_t d, const double *b, double *adj) {
-  if (d == 1) {
-    adj[0] = 1.0;
-    return b[0];
-  }
-  if (d == 2) {
-    adj[0] = b[3];
-    adj[1] = -b[1];
-    adj[2] = -b[2];
-    adj[3] = b[0];
-    return b[0] * b[3] - b[1] * b[2];
-  }
-  for (int r = 0; r < 3; ++r)
-    for (int c = 0; c < 3; ++c) {
-      int r1 = (c + 1) % 3, r2 = (c + 2) % 3, c1 = (r + 1) % 3, c2 = (r + 2) % 3;
-      adj[r * 3 + c] = b[r1 * 3 + c1] * b[r2 * 3 + c2] - b[r1 * 3 + c2] * b[r2 * 3 + c1];
-    }
-  return b[0] * adj[0] + b[1] * adj[3] + b[2] * adj[6];
-}
-
-static double norm(int32_t d, const double *a) {
-  double s = 0.0;
-  for (int k = 0; k < d * d; ++k) s += a[k] * a[k];
-  return sqrt(s);
-}
-
-int sphi_invert_gradient_matrix(int32_t dim, const double *b, double *inverse) {
-  enum { CONDITION_LIMIT = 1000 };
-  double adj[9], det = sphi_adjugate(dim, b, adj);
-  double size = norm(dim, b);
-  /* a matrix far from the identity in size is as useless as a singular one */
-  int good = isfinite(det) && size > 1e-3 &&
-             size * norm(dim, adj) < CONDITION_LIMIT * fabs(det);
-  for (int k = 0; k < dim * dim; ++k)
-    inverse[k] = good ? adj[k] / det : (k % (dim + 1) == 0 ? 1.0 : 0.0);
-  return !good;
 }
 
 typedef struct invert_job {

@@ -28,12 +28,6 @@ sph_status sphi_operator_begin(sph_neighbors *list, const sph_kernel *kernel,
 /* A sweep with one set of terms, corrected where the operands have a matrix. */
 sphi_sweep sphi_sweep_of(const sph_kernel *kernel, const sph_operands *own, uint32_t terms);
 
-/* B_i to its inverse, or the identity where it is ill conditioned: 1 then, else 0. */
-int sphi_invert_gradient_matrix(int32_t dim, const double *b, double *inverse);
-
-/* Adjugate and determinant of a matrix: inverse = adjugate / det. */
-double sphi_adjugate(int32_t dim, const double *b, double *adj);
-
 /* The viscous pressure of one particle from its velocity divergence, He 2015 (3.14) to (3.17). */
 double sphi_bulk_pressure(const sph_bulk_viscosity *o, double div, double h, double rho, double c);
 

@@ -1,5 +1,6 @@
 /* Terms on a frozen configuration: what is kept of it from evaluation to evaluation, and the sums
  * of total-Lagrangian elasticity. */
+#include "../sweep/invert.h"
 #include "rhs_impl.h"
 
 #include <string.h>

@@ -44,8 +44,10 @@ static sphi_spec spec_of(const sphi_evaluation *e) {
   return spec;
 }
 
-static int needs_matrix(const sphi_spec *spec) {
-  return spec->corrected ||
+/* Matrices are needed before the sweep only where something needs them earlier or of neighbours;
+ * else the sweep makes each row's own. */
+static int needs_matrices_before(const sphi_spec *spec) {
+  return (spec->corrected & SPHI_BULK) ||
          ((spec->terms & SPHI_STRESS) && spec->stress == SPH_STRESS_CONSERVATIVE);
 }
 
@@ -127,7 +129,12 @@ static sph_status make_inputs(sphi_evaluation *e, sphi_sweep *sweep) {
   const sph_term *monaghan = &e->rhs->terms[SPH_TERM_MONAGHAN];
   sph_status s = SPH_OK;
   uint32_t terms = sweep->spec.terms;
-  if (needs_matrix(&sweep->spec)) s = sphi_rhs_matrices(e);
+  /* matrices of a frozen configuration are kept; others are made within the sweep */
+  const int kept = e->rhs->options.position_field == SPH_FIELD_X0;
+  if (needs_matrices_before(&sweep->spec) || (kept && sweep->spec.corrected))
+    s = sphi_rhs_matrices(e);
+  else if (sweep->spec.corrected)
+    sweep->spec.terms |= SPHI_MATRIX;
   if (!s && (terms & SPHI_BULK)) s = make_bulk(e);
   if (!s && (terms & SPHI_ARTSTRESS)) s = make_art(e);
   sweep->alpha = monaghan->alpha;

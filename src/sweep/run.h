@@ -77,10 +77,10 @@ SPHI_RUN_INLINE int sphi_needs_gradient(sphi_spec s) {
 }
 SPHI_RUN_INLINE int sphi_sym(int dim) { return dim * (dim + 1) / 2; }
 
-#define SPHI_PLACE(member, wanted, count)                                                     \
-  do {                                                                                        \
-    y.member = (wanted) ? at : -1;                                                            \
-    at += (wanted) ? (count) : 0;                                                             \
+#define SPHI_PLACE(member, wanted, count) \
+  do {                                    \
+    y.member = (wanted) ? at : -1;        \
+    at += (wanted) ? (count) : 0;         \
   } while (0)
 
 /* The record of a spec; folds to constants in the compile-time instances. */
@@ -93,12 +93,12 @@ SPHI_RUN_INLINE sphi_record sphi_record_of(sphi_spec s, int dim) {
   SPHI_PLACE(rho, (s.terms & (SPHI_MONAGHAN | SPHI_XSPH)) != 0, 1);
   SPHI_PLACE(p, (s.terms & SPHI_PRESSURE) != 0, 1);
   SPHI_PLACE(vol, sphi_needs_vol(s), 1);
-  SPHI_PLACE(s, stress && s.stress != SPH_STRESS_CONSERVATIVE, sphi_sym(dim));
-  SPHI_PLACE(t, stress && s.stress == SPH_STRESS_CONSERVATIVE, dim * dim);
   SPHI_PLACE(m, sphi_needs_m(s) && !(s.uniform & SPHI_UNIFORM_M), 1);
   SPHI_PLACE(h, !(s.uniform & SPHI_UNIFORM_H), 1);
   SPHI_PLACE(c, (s.terms & SPHI_MONAGHAN) && !(s.uniform & SPHI_UNIFORM_C), 1);
   SPHI_PLACE(q, (s.terms & SPHI_BULK) != 0, 1);
+  SPHI_PLACE(s, stress && s.stress != SPH_STRESS_CONSERVATIVE, sphi_sym(dim));
+  SPHI_PLACE(t, stress && s.stress == SPH_STRESS_CONSERVATIVE, dim * dim);
   SPHI_PLACE(r, (s.terms & SPHI_ARTSTRESS) != 0, sphi_sym(dim));
   SPHI_PLACE(f, (s.terms & (SPHI_INTERP | SPHI_GRADF)) != 0, SPHI_FIELD_WIDTH);
   y.quads = (at + 3) / 4;

@@ -25,17 +25,23 @@ static uint32_t uniform_arrays(const sphi_sweep *s) {
 
 static sphi_rows_fn choose_rows(sph_context *ctx, sphi_spec *spec, int32_t dim) {
   switch (sphi_isa(ctx)) {
-    case SPH_ISA_AVX512: return sphi_rows_avx512(spec, dim);
-    case SPH_ISA_AVX2: return sphi_rows_avx2(spec, dim);
-    default: return sphi_rows_portable(spec, dim);
+  case SPH_ISA_AVX512:
+    return sphi_rows_avx512(spec, dim);
+  case SPH_ISA_AVX2:
+    return sphi_rows_avx2(spec, dim);
+  default:
+    return sphi_rows_portable(spec, dim);
   }
 }
 
 sphi_artificial_fn sphi_artificial(int32_t isa) {
   switch (isa) {
-    case SPH_ISA_AVX512: return sphi_artificial_avx512;
-    case SPH_ISA_AVX2: return sphi_artificial_avx2;
-    default: return sphi_artificial_portable;
+  case SPH_ISA_AVX512:
+    return sphi_artificial_avx512;
+  case SPH_ISA_AVX2:
+    return sphi_artificial_avx2;
+  default:
+    return sphi_artificial_portable;
   }
 }
 
@@ -81,6 +87,7 @@ sph_status sphi_sweep_run(sph_neighbors *list, const sphi_sweep *sweep) {
   if (status || sweep->a->n == 0) return status;
   run.spec.uniform = uniform_arrays(sweep);
   run.spec.corrected &= run.spec.terms;
+  if (run.spec.stress == SPH_STRESS_CONSERVATIVE) run.spec.corrected &= ~(uint32_t)SPHI_STRESS;
   run.spec.width = sweep->f_count;
   job.rows = choose_rows(ctx, &run.spec, sweep->a->dim);
   run.layout = sphi_record_of(run.spec, sweep->a->dim);
