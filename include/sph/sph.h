@@ -6,12 +6,14 @@
 #include <sph/context.h>
 #include <sph/correction.h>
 #include <sph/elastic.h>
+#include <sph/eos.h>
 #include <sph/integrator.h>
 #include <sph/kernel.h>
 #include <sph/material.h>
 #include <sph/neighbors.h>
 #include <sph/operators.h>
 #include <sph/particles.h>
+#include <sph/plasticity.h>
 #include <sph/rhs.h>
 #include <sph/stress.h>
 
