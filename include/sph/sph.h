@@ -7,6 +7,7 @@
 #include <sph/context.h>
 #include <sph/correction.h>
 #include <sph/elastic.h>
+#include <sph/eos.h>
 #include <sph/integrator.h>
 #include <sph/kernel.h>
 #include <sph/layout.h>
@@ -14,6 +15,7 @@
 #include <sph/neighbors.h>
 #include <sph/operators.h>
 #include <sph/particles.h>
+#include <sph/plasticity.h>
 #include <sph/rhs.h>
 #include <sph/stress.h>
 

@@ -32,7 +32,10 @@ enum {
   SPHI_NEEDS_E = 8,
   SPHI_NEEDS_F = 16,
   SPHI_NEEDS_STRAIN = 32,
-  SPHI_NEEDS_P = 64
+  SPHI_NEEDS_P = 64,
+  /* of the return alone, arrays beside the block */
+  SPHI_NEEDS_ACROSS = 128,
+  SPHI_NEEDS_PLASTIC_STRAIN = 256
 };
 
 /* Index of the first particle of a block for which a built-in law is not defined; -1 for none.

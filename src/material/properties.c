@@ -1,7 +1,7 @@
 /* Properties of a material: which a law has, what it needs, checks, dispatch to its functions. */
 #include "material_impl.h"
 
-#include <sph/elastic.h>
+#include <sph/eos.h>
 
 typedef int32_t (*one_output)(void *user, const sph_material_block *block, double *out);
 
@@ -154,6 +154,15 @@ sph_status sphi_material_first_piola_quiet(const sph_material *material, int32_t
   return callback_status(material->functions.first_piola(material->user, &b, P, energy));
 }
 
+sph_status sphi_material_plastic_return_quiet(const sph_material *material,
+                                              const sph_material_block *block, double *sigma,
+                                              double *across, double *plastic_strain,
+                                              double *plastic_work) {
+  if (block->n == 0) return SPH_OK;
+  return callback_status(material->functions.plastic_return(material->user, block, sigma, across,
+                                                            plastic_strain, plastic_work));
+}
+
 sph_status sphi_material_explain(const sph_material *material, int32_t property,
                                  const sph_material_block *block, int64_t first,
                                  sph_status status) {
@@ -231,6 +240,32 @@ sph_status sph_material_stress_rate_across(const sph_material *material,
   return evaluate(material, SPHI_MATERIAL_STRESS_RATE_ACROSS, block, rate);
 }
 
+sph_status sph_material_temperature(const sph_material *material, const sph_material_block *block,
+                                    double *temperature) {
+  return evaluate(material, SPHI_MATERIAL_TEMPERATURE, block, temperature);
+}
+
+sph_status sph_material_energy(const sph_material *material, const sph_material_block *block,
+                               double *e) {
+  return evaluate(material, SPHI_MATERIAL_ENERGY, block, e);
+}
+
+sph_status sph_material_pressure_derivatives(const sph_material *material,
+                                             const sph_material_block *block, double *dp_drho,
+                                             double *dp_de) {
+  const int32_t property = SPHI_MATERIAL_PRESSURE_DERIVATIVES;
+  sph_material_block mine;
+  sph_status status =
+      check_call(material, property, block, dp_drho != NULL ? dp_drho : dp_de, &mine);
+  if (status != SPH_OK || mine.n == 0) return status;
+  if (out_of_range(material, property, &mine))
+    status = SPH_ERR_NUMERIC;
+  else
+    status = callback_status(
+        material->functions.pressure_derivatives(material->user, &mine, dp_drho, dp_de));
+  return sphi_material_explain(material, property, &mine, 0, status);
+}
+
 sph_status sph_material_cauchy_stress(const sph_material *material, int32_t dim, int64_t n,
                                       const double *F, double *sigma) {
   const sph_material_block b = sphi_material_block_of_f(dim, n, F);
@@ -247,4 +282,23 @@ sph_status sph_material_first_piola(const sph_material *material, int32_t dim, i
     return sphi_fail(material->object.ctx, SPH_ERR_ARG, "first_piola: F is NULL");
   status = sphi_material_first_piola_quiet(material, dim, n, F, P, energy);
   return sphi_material_explain(material, SPHI_MATERIAL_FIRST_PIOLA, &b, 0, status);
+}
+
+sph_status sph_material_plastic_return(const sph_material *material, int32_t dim, int64_t n,
+                                       double *sigma, double *across, double *plastic_strain,
+                                       double *plastic_work) {
+  const sph_material_block b = {.size = sizeof b, .dim = dim, .n = n, .sigma = sigma};
+  sph_material_block mine;
+  sph_status status = check_call(material, SPHI_MATERIAL_PLASTIC_RETURN, &b, sigma, &mine);
+  if (status != SPH_OK) return status;
+  sph_context *ctx = material->object.ctx;
+  const uint32_t needs = material->needs[SPHI_MATERIAL_PLASTIC_RETURN];
+  if (n > 0 && (needs & SPHI_NEEDS_ACROSS) && across == NULL)
+    return sphi_fail(ctx, SPH_ERR_ARG, "plastic_return: across is NULL, the reduction needs it");
+  if (n > 0 && (needs & SPHI_NEEDS_PLASTIC_STRAIN) && plastic_strain == NULL)
+    return sphi_fail(ctx, SPH_ERR_ARG,
+                     "plastic_return: plastic_strain is NULL, hardening needs it");
+  status = sphi_material_plastic_return_quiet(material, &mine, sigma, across, plastic_strain,
+                                              plastic_work);
+  return sphi_material_explain(material, SPHI_MATERIAL_PLASTIC_RETURN, &mine, 0, status);
 }
