@@ -474,6 +474,7 @@ static void test_wave_order(void **state) {
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_gradients),      cmocka_unit_test(test_pairs),
     cmocka_unit_test(test_target_skipped), cmocka_unit_test(test_hydrostatic),
-    cmocka_unit_test(test_momentum),       cmocka_unit_test(test_wave_order),
+    cmocka_unit_test(test_momentum),       cmocka_unit_test(test_pressure_law),
+    cmocka_unit_test(test_wave_order),
 };
 SPH_TEST_MAIN(tests)
