@@ -12,7 +12,7 @@ static void *make(const rh_system *s, const sph_ghosts_options *o, sph_status wa
   return g;
 }
 
-/* --- ghosts --------------------------------------------------------------------------------- */
+/* --- ghosts ------------------------------------------------------------------------------ */
 
 static void test_options(void **state) {
   (void)state;

@@ -26,7 +26,7 @@ static rh_system lattice(sph_context *ctx, int32_t dim) {
   return s;
 }
 
-/* --- velocity gradients ---------------------------------------------------------------------- */
+/* --- velocity gradients ------------------------------------------------------------------ */
 
 /* A material whose stress rate shows the velocity gradient: {xx, yy, xy} = {L00, L11, L01}. */
 static int32_t show_gradient(void *user, const sph_material_block *b, double *out) {
@@ -278,8 +278,46 @@ static void test_hydrostatic(void **state) {
   check_hydrostatic(gravity, 0.0, 0);
 }
 
-/* --- momentum
- * ------------------------------------------------------------------------------------- */
+/* Pressures of a material are mirrored as they are now, also in the first evaluation. */
+static int32_t square_law(void *user, const sph_material_block *b, double *p) {
+  (void)user;
+  for (int64_t i = 0; i < b->n; i++) p[i] = b->rho[i] * b->rho[i];
+  return 0;
+}
+
+static void test_pressure_law(void **state) {
+  (void)state;
+  sph_context *ctx = rh_context(1);
+  rh_system s = rh_make(ctx, 2, SIDE, 0, 3);
+  const gh_frame frame = gh_identity();
+  sph_ghosts *g = gh_ghosts(&s, 0.0);
+  gh_box(g, &frame, 2, SIDE, SPH_WALL_SLIP);
+  sph_material *m = NULL;
+  sph_material_functions f;
+  sph_material_functions_init(&f);
+  f.pressure = square_law;
+  check_ok(sph_material_create(ctx, &f, NULL, &m));
+  sph_rhs *rhs = rh_rhs(&s);
+  check_ok(sph_rhs_set_material(rhs, 0, m));
+  sph_material_destroy(m);
+  check_ok(sph_rhs_set_prepare(rhs, sph_ghosts_prepare, g));
+  for (int round = 0; round < 2; round++) {
+    double *rho = rh_field(&s, SPH_FIELD_RHO);
+    for (int64_t i = 0; i < s.rows; i++) rho[i] = 1.0 + round + 0.01 * (double)i;
+    check_ok(sph_rhs_evaluate(rhs, s.set, s.list, 0.0, NULL, 0));
+    rho = rh_field(&s, SPH_FIELD_RHO);
+    for (int64_t k = 0; k < sph_ghosts_count(g); k++) {
+      const double own = rho[sph_ghosts_owners(g)[k]];
+      assert_true(gh_const(&s, SPH_FIELD_P)[s.rows + k] == own * own);
+    }
+  }
+  sph_rhs_destroy(rhs);
+  sph_ghosts_destroy(g);
+  rh_free(&s);
+  sph_context_destroy(ctx);
+}
+
+/* --- momentum ---------------------------------------------------------------------------- */
 
 /* A slip wall pushes along its normal only: what it changes of the momentum of a random state has
  * no part along the wall, to rounding; the normal part is not small. */
@@ -313,8 +351,7 @@ static void test_momentum(void **state) {
   sph_context_destroy(ctx);
 }
 
-/* --- waves
- * ----------------------------------------------------------------------------------------- */
+/* --- waves ------------------------------------------------------------------------------- */
 
 /* A strip of length 1, periodic across and turned by an angle, loaded by a pressure and a shear at
  * one end and fixed at the other: a P and an S wave of speeds sqrt(M/rho) and sqrt(G/rho). */

@@ -184,7 +184,7 @@ static void test_on_the_wall(void **state) {
   sph_context_destroy(ctx);
 }
 
-/* --- how long images serve ---------------------------------------------------------------- */
+/* --- how long images serve --------------------------------------------------------------- */
 
 /* With a skin the images and the generation of the set stay while particles move little, and the
  * ghosts go with them; every needed image is there. */
@@ -269,7 +269,7 @@ static void test_prepare_is_update(void **state) {
   }
 }
 
-/* --- escaped particles --------------------------------------------------------------------- */
+/* --- escaped particles ------------------------------------------------------------------- */
 
 static sph_ghosts *escape_ghosts(const rh_system *s, int32_t escape) {
   sph_ghosts *g = NULL;
@@ -354,7 +354,7 @@ static void test_recapture(void **state) {
   sph_context_destroy(ctx);
 }
 
-/* --- the frozen configuration --------------------------------------------------------------- */
+/* --- the frozen configuration ------------------------------------------------------------ */
 
 /* Distances by X0 about the wall as it was added; X about the wall as it is. */
 static void test_frozen(void **state) {

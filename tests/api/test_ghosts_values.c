@@ -4,7 +4,7 @@
 
 enum { SIDE = 6 };
 
-/* --- linear fields ------------------------------------------------------------------------ */
+/* --- linear fields ----------------------------------------------------------------------- */
 
 /* In the wall's frame (normal = axis 0): f(d) = f0 + d f1. */
 typedef struct linear_field {
@@ -145,7 +145,7 @@ static void test_linear(void **state) {
       if (kind != SPH_WALL_PAIRWISE) check_linear(dim, kind);
 }
 
-/* --- single values ------------------------------------------------------------------------ */
+/* --- single values ----------------------------------------------------------------------- */
 
 /* One particle at (1, 0.5) with v = (2, 3), sigma = (5, 7, 11), rho = 2, m = 6, p = 13. */
 static rh_system one_particle(sph_context *ctx) {
@@ -231,7 +231,7 @@ static void test_corner(void **state) {
   sph_context_destroy(ctx);
 }
 
-/* --- turned boxes --------------------------------------------------------------------------- */
+/* --- turned boxes ------------------------------------------------------------------------ */
 
 /* Walls of different kinds on all faces; the box and the data are turned together. */
 static sph_ghosts *mixed_box(const rh_system *s, const gh_frame *frame) {
@@ -291,7 +291,7 @@ static void test_turned(void **state) {
   for (int32_t dim = 1; dim <= 3; dim++) check_turned(dim);
 }
 
-/* --- other fields, callbacks ---------------------------------------------------------------- */
+/* --- other fields, callbacks ------------------------------------------------------------- */
 
 static void test_other_fields(void **state) {
   (void)state;
@@ -393,7 +393,7 @@ static void test_callbacks(void **state) {
   sph_context_destroy(ctx);
 }
 
-/* --- threads ---------------------------------------------------------------------------------- */
+/* --- threads ----------------------------------------------------------------------------- */
 
 static void test_threads(void **state) {
   (void)state;
