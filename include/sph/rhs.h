@@ -164,7 +164,8 @@ SPH_API sph_status sph_rhs_add(sph_rhs *rhs, const sph_term *term);
 SPH_API sph_status sph_rhs_add_host(sph_rhs *rhs, int32_t field, sph_pair_fn fn, void *user);
 
 /* Material of a phase (0..255), retained; NULL removes it. Where it has a pressure law, P of the
- * real particles is set from it before the pair loops. SPH_ERR_ARG: another phase. Since 0.1. */
+ * real particles is set from it before the pair loops, and before the prepare hook if there is one,
+ * so that ghosts can mirror it. SPH_ERR_ARG: another phase. Since 0.1. */
 SPH_API sph_status sph_rhs_set_material(sph_rhs *rhs, int32_t phase, sph_material *material);
 
 /* The hook before the pair loops; NULL for none. The last one set counts. fn and user must stay

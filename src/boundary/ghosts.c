@@ -67,7 +67,7 @@ const int64_t *sph_ghosts_owners(const sph_ghosts *g) { return is_ghosts(g) ? g-
 
 const uint32_t *sph_ghosts_walls(const sph_ghosts *g) { return is_ghosts(g) ? g->mask.ptr : NULL; }
 
-/* --- escaped particles -------------------------------------------------------------------- */
+/* --- escaped particles ------------------------------------------------------------------- */
 
 /* Mirror the place, and turn the velocity relative to the wall where it points outwards. */
 static void put_back(const sph_wall *w, int32_t dim, double d, double *x, double *v) {

@@ -22,7 +22,7 @@ struct sph_hold {
 
 enum { MAX_COMPONENTS = 64 };
 
-/* --- life ---------------------------------------------------------------------------------- */
+/* --- life -------------------------------------------------------------------------------- */
 
 sph_status sph_hold_create(sph_context *ctx, sph_hold **out) {
   if (out) *out = NULL;
@@ -62,7 +62,7 @@ void sph_hold_destroy(sph_hold *hold) {
   sphi_context_release(ctx);
 }
 
-/* --- entries ------------------------------------------------------------------------------- */
+/* --- entries ----------------------------------------------------------------------------- */
 
 static sph_status check_list(sph_context *ctx, int64_t n, const int64_t *indices, int64_t first) {
   if (n < 0 || n > INT32_MAX || first < 0 || first > INT32_MAX)
@@ -144,7 +144,7 @@ sph_status sph_hold_traction(sph_hold *hold, int64_t n, const int64_t *indices, 
   return s;
 }
 
-/* --- the hook ------------------------------------------------------------------------------ */
+/* --- the hook ---------------------------------------------------------------------------- */
 
 static void hold_value(const entry *e, double t, int64_t i, int32_t components, double *rate) {
   double value[MAX_COMPONENTS] = {0.0};

@@ -38,7 +38,7 @@ typedef struct crossing {
   double c[3]; /* -2 d rho (a_b - g), the change of the traction across the wall */
 } crossing;
 
-/* --- fields -------------------------------------------------------------------------------- */
+/* --- fields ------------------------------------------------------------------------------ */
 
 static int fits(const sph_ghosts *g, int32_t mirror, int32_t components) {
   const int32_t dim = g->options.dim;
@@ -72,7 +72,7 @@ static void collect_fields(mirror_job *j, sph_particles *set) {
   }
 }
 
-/* --- through one wall --------------------------------------------------------------------- */
+/* --- through one wall -------------------------------------------------------------------- */
 
 /* u += 2 (shift - u.n) n, the mirror image of a point or vector. */
 static void reflect(int32_t dim, double *u, const double *n, double shift) {
@@ -186,7 +186,7 @@ static void apply(int32_t dim, const crossing *x, const column *c, double *f) {
     mirror_tensor(dim, x->wall->normal, f);
 }
 
-/* --- one ghost ---------------------------------------------------------------------------- */
+/* --- one ghost --------------------------------------------------------------------------- */
 
 /* Walls at right angles do not change each other's distance: d is the owner's for each. */
 static crossing make_crossing(const mirror_job *j, int64_t owner, int32_t w) {
@@ -226,7 +226,7 @@ static void mirror_range(void *job, int64_t lo, int64_t hi, int32_t worker) {
   for (int64_t k = lo; k < hi; ++k) mirror_ghost(job, k);
 }
 
-/* --- all ghosts ----------------------------------------------------------------------------- */
+/* --- all ghosts -------------------------------------------------------------------------- */
 
 static mirror_job make_job(const sph_ghosts *g, const sph_particles *set, double t,
                            const sph_wall *next) {

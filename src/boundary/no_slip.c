@@ -65,15 +65,15 @@ static int see(const sph_ghosts *g, const sph_pair_block *b, int32_t k, seen_gho
   return 1;
 }
 
-static int usable(const sph_ghosts *g, const double *rho) {
-  return sphi_check_handle(NULL, g, SPHI_MAGIC_GHOSTS, "ghosts") == SPH_OK && g->x && rho;
+static int usable(const sph_ghosts *g) {
+  return sphi_check_handle(NULL, g, SPHI_MAGIC_GHOSTS, "ghosts") == SPH_OK && g->x && g->rho;
 }
 
 void sph_no_slip_gradient(void *ghosts, const sph_pair_block *b, double *out) {
   const sph_ghosts *g = ghosts;
   const int32_t dim = b->dim;
   seen_ghost s;
-  if (!usable(g, g->rho)) return;
+  if (!usable(g)) return;
   for (int32_t k = 0; k < b->count; ++k) {
     if (!see(g, b, k, &s)) continue;
     const double volume = s.mass / g->rho[b->i] * b->f[k];
@@ -86,7 +86,7 @@ void sph_no_slip_gradient(void *ghosts, const sph_pair_block *b, double *out) {
 void sph_no_slip_continuity(void *ghosts, const sph_pair_block *b, double *out) {
   const sph_ghosts *g = ghosts;
   seen_ghost s;
-  if (!usable(g, g->rho)) return;
+  if (!usable(g)) return;
   for (int32_t k = 0; k < b->count; ++k)
     if (see(g, b, k, &s))
       out[0] -= s.mass * b->f[k] * sphi_dot(b->dim, s.difference, b->dx + k * b->dim);
@@ -97,7 +97,7 @@ void sph_no_slip_stress(void *ghosts, const sph_pair_block *b, double *out) {
   const int32_t dim = b->dim;
   double sigma[3][3];
   seen_ghost s;
-  if (!usable(g, g->rho) || !g->sigma) return;
+  if (!usable(g) || !g->sigma) return;
   sphi_sym_unpack(dim, g->sigma + b->i * sph_sym_components(dim), sigma);
   for (int32_t k = 0; k < b->count; ++k) {
     if (!see(g, b, k, &s)) continue;
@@ -110,7 +110,7 @@ void sph_no_slip_pressure(void *ghosts, const sph_pair_block *b, double *out) {
   const sph_ghosts *g = ghosts;
   const int32_t dim = b->dim;
   seen_ghost s;
-  if (!usable(g, g->rho)) return;
+  if (!usable(g)) return;
   /* a material may have made the field after the hook */
   const double *p = sph_particles_field_const(g->set, SPH_FIELD_P);
   if (!p) return;

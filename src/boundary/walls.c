@@ -223,7 +223,7 @@ sph_status sphi_walls_at(const sph_ghosts *g, double t, sph_wall *next) {
   return SPH_OK;
 }
 
-/* --- mirrors ------------------------------------------------------------------------------ */
+/* --- mirrors ----------------------------------------------------------------------------- */
 
 static int by_wall(int32_t field) {
   return field == SPH_FIELD_X || field == SPH_FIELD_X0 || field == SPH_FIELD_V ||

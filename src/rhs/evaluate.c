@@ -158,10 +158,13 @@ static void clear_rates(sphi_evaluation *e) {
   }
 }
 
-/* The hook may have added ghosts; the arrays of the rates have no room for more real particles. */
+/* The hook may mirror pressures, so they are those of this state when it runs; it may also change
+ * the state, so they are computed again after it. It may have added ghosts; the arrays of the rates
+ * have no room for more real particles. */
 static sph_status prepare(sphi_evaluation *e) {
   int64_t rows = e->rows;
-  sph_status s = run_hook(e, e->rhs->prepare, e->rhs->prepare_user, "prepare");
+  sph_status s = e->rhs->prepare ? sphi_rhs_pressures(e) : SPH_OK;
+  if (!s) s = run_hook(e, e->rhs->prepare, e->rhs->prepare_user, "prepare");
   if (!s) s = gather(e);
   if (s || e->rows == rows) return s;
   return sphi_fail(e->rhs->base.ctx, SPH_ERR_STATE,

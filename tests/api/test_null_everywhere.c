@@ -5,7 +5,18 @@
 
 #include <ctype.h>
 
-typedef enum kind { CONTEXT, PARTICLES, KERNEL, NEIGHBORS, MATERIAL, RHS, INTEGRATOR, KINDS } kind;
+typedef enum kind {
+  CONTEXT,
+  PARTICLES,
+  KERNEL,
+  NEIGHBORS,
+  MATERIAL,
+  RHS,
+  INTEGRATOR,
+  GHOSTS,
+  HOLD,
+  KINDS
+} kind;
 
 /* One valid object of each kind, and arrays that are large enough for every call. */
 static struct {
@@ -14,6 +25,9 @@ static struct {
   sph_material *material;
   sph_rhs *rhs;
   sph_integrator *it;
+  sph_ghosts *ghosts;
+  sph_hold *hold;
+  sph_wall wall;
   sph_operands a;
   sph_material_block block;
   sph_material_functions law;
@@ -62,6 +76,21 @@ static int32_t law_fn(void *user, const sph_material_block *b, double *out) {
   return 0;
 }
 
+static sph_ghosts *make_ghosts(sph_context *ctx) {
+  sph_ghosts *ghosts = NULL;
+  sph_ghosts_options o;
+  sph_ghosts_options_init(&o);
+  o.dim = 1;
+  check_ok(sph_ghosts_create(ctx, &o, &ghosts));
+  sph_wall_init(&g.wall);
+  g.wall.kind = SPH_WALL_SLIP;
+  g.wall.normal[0] = 1.0;
+  g.wall.point[0] = -100.0; /* far from all particles */
+  check_ok(sph_ghosts_add_wall(ghosts, &g.wall, NULL));
+  check_ok(sph_ghosts_update(ghosts, g.s.set, 0.0));
+  return ghosts;
+}
+
 static void open_all(void) {
   memset(&g, 0, sizeof g);
   sph_context *ctx = rh_context(1);
@@ -92,12 +121,17 @@ static void open_all(void) {
   g.region.dim = 1;
   g.term = rh_term(SPH_TERM_STRESS, 0, 0);
   g.rate = (sph_rate){SPH_FIELD_V, g.out};
-  void *all[KINDS] = {ctx, g.s.set, g.s.kernel, g.s.list, g.material, g.rhs, g.it};
+  g.ghosts = make_ghosts(ctx);
+  check_ok(sph_hold_create(ctx, &g.hold));
+  void *all[KINDS] = {ctx,   g.s.set, g.s.kernel, g.s.list, g.material,
+                      g.rhs, g.it,    g.ghosts,   g.hold};
   memcpy(g.handle, all, sizeof all);
 }
 
 static void close_all(void) {
   sph_context *ctx = g.s.ctx;
+  sph_hold_destroy(g.hold);
+  sph_ghosts_destroy(g.ghosts);
   sph_integrator_destroy(g.it);
   sph_rhs_destroy(g.rhs);
   sph_material_destroy(g.material);
@@ -197,7 +231,26 @@ static void close_all(void) {
   X(lattice, CONTEXT, sph_layout_lattice(h, &g.lattice, 0, NULL, &g.found))                \
   X(holes, CONTEXT, sph_layout_holes(h, &g.holes, 0, NULL, &g.found))                      \
   X(jitter, CONTEXT, sph_layout_jitter(h, 1, 0.1, 1, NULL, NULL, 1, g.out))                \
-  X(volumes, CONTEXT, sph_layout_volumes(h, &g.region, 1, g.in, g.out))
+  X(volumes, CONTEXT, sph_layout_volumes(h, &g.region, 1, g.in, g.out))                    \
+  X(new_ghosts, CONTEXT, sph_ghosts_create(h, NULL, MADE))                                 \
+  X(add_wall, GHOSTS, sph_ghosts_add_wall(h, &g.wall, NULL))                               \
+  X(set_wall, GHOSTS, sph_ghosts_set_wall(h, 0, &g.wall))                                  \
+  X(get_wall, GHOSTS, sph_ghosts_get_wall(h, 0, &g.wall))                                  \
+  X(set_mirror, GHOSTS, sph_ghosts_set_mirror(h, SPH_FIELD_E, SPH_MIRROR_LEAVE))           \
+  X(ghosts_update, GHOSTS, sph_ghosts_update(h, SET, 0.0))                                 \
+  X(ghosts_update_set, PARTICLES, sph_ghosts_update(g.ghosts, h, 0.0))                     \
+  X(ghosts_refresh, GHOSTS, sph_ghosts_refresh(h, SET, 0.0))                               \
+  X(ghosts_refresh_set, PARTICLES, sph_ghosts_refresh(g.ghosts, h, 0.0))                   \
+  X(ghosts_prepare, GHOSTS, sph_ghosts_prepare(h, 0.0, SET, NULL, 0))                      \
+  X(ghosts_prepare_set, PARTICLES, sph_ghosts_prepare(g.ghosts, 0.0, h, NULL, 0))          \
+  X(recapture, GHOSTS, sph_ghosts_recapture(h, SET, NULL))                                 \
+  X(recapture_set, PARTICLES, sph_ghosts_recapture(g.ghosts, h, NULL))                     \
+  X(new_hold, CONTEXT, sph_hold_create(h, MADE))                                           \
+  X(hold_field, HOLD, sph_hold_field(h, 1, 1, NULL, 0, 1, NULL, NULL, NULL))               \
+  X(hold_traction, HOLD, sph_hold_traction(h, 1, NULL, 0, g.in, NULL, NULL, NULL))         \
+  X(hold_clear, HOLD, sph_hold_clear(h))                                                   \
+  X(hold_finish, HOLD, sph_hold_finish(h, 0.0, SET, NULL, 0))                              \
+  X(hold_finish_set, PARTICLES, sph_hold_finish(g.hold, 0.0, h, NULL, 0))
 
 #define DEFINE_CALL(name, k, call) \
   static sph_status call_##name(void *h) { return call; }
@@ -325,7 +378,14 @@ static void test_handles(void **state) {
   X(sph_layout_jitter(CTX, 1, 0.1, 1, NULL, NULL, 1, NULL))         \
   X(sph_layout_volumes(CTX, NULL, 1, g.in, g.out))                  \
   X(sph_layout_volumes(CTX, &g.region, 1, NULL, g.out))             \
-  X(sph_layout_volumes(CTX, &g.region, 1, g.in, NULL))
+  X(sph_layout_volumes(CTX, &g.region, 1, g.in, NULL))              \
+  X(sph_ghosts_create(CTX, NULL, NULL))                             \
+  X(sph_ghosts_add_wall(g.ghosts, NULL, NULL))                      \
+  X(sph_ghosts_set_wall(g.ghosts, 0, NULL))                         \
+  X(sph_ghosts_get_wall(g.ghosts, 0, NULL))                         \
+  X(sph_hold_create(CTX, NULL))                                     \
+  X(sph_hold_traction(g.hold, 1, NULL, 0, NULL, NULL, NULL, NULL))  \
+  X(sph_hold_finish(g.hold, 0.0, SET, NULL, 1))
 
 static void test_pointers(void **state) {
   (void)state;
@@ -357,6 +417,18 @@ static void test_valid_calls(void **state) {
 }
 
 /* --- functions without a status ---------------------------------------------------------- */
+
+/* A pair function adds nothing for a handle that is not its own. */
+static void check_pair_functions(void *h) {
+  static const int32_t j[1] = {1};
+  const sph_pair_block b = {sizeof b, 1, 1, 0, j, g.in, g.in, g.in, g.in};
+  double out[1] = {0.0};
+  sph_no_slip_gradient(h, &b, out);
+  sph_no_slip_continuity(h, &b, out);
+  sph_no_slip_stress(h, &b, out);
+  sph_no_slip_pressure(h, &b, out);
+  assert_true(out[0] == 0.0);
+}
 
 static void check_getters(void *h, kind not_this) {
   if (not_this != CONTEXT) {
@@ -391,6 +463,12 @@ static void check_getters(void *h, kind not_this) {
     assert_int_equal(sph_neighbors_pairs(h), -1);
     assert_int_equal(sph_neighbors_builds(h), -1);
   }
+  if (not_this != GHOSTS) {
+    assert_int_equal(sph_ghosts_count(h), -1);
+    assert_null(sph_ghosts_owners(h));
+    assert_null(sph_ghosts_walls(h));
+    check_pair_functions(h);
+  }
 }
 
 /* What cannot answer a status answers its nothing; destroying another kind leaves it alone. */
@@ -402,6 +480,8 @@ static void check_destroyers(void *h, kind not_this) {
   if (not_this != MATERIAL) sph_material_destroy(h);
   if (not_this != RHS) sph_rhs_destroy(h);
   if (not_this != INTEGRATOR) sph_integrator_destroy(h);
+  if (not_this != GHOSTS) sph_ghosts_destroy(h);
+  if (not_this != HOLD) sph_hold_destroy(h);
 }
 
 static void test_getters(void **state) {
@@ -447,6 +527,8 @@ static void test_inits(void **state) {
   TRY(sph_rhs_options_init_sized)
   TRY(sph_integrator_options_init_sized)
   TRY(sph_step_info_init_sized)
+  TRY(sph_wall_init_sized)
+  TRY(sph_ghosts_options_init_sized)
 #undef TRY
   for (int k = 0; k < 4; k++) assert_int_equal(small.bytes[k], 0xaa);
 }
@@ -518,6 +600,9 @@ static void test_complete(void **state) {
   static const char *const headers[] = {"base",       "context",  "particles", "kernel",
                                         "layout",     "material", "neighbors", "operators",
                                         "correction", "rhs",      "integrator"};
+  static const char *const headers[] = {"base",     "context",    "particles", "kernel",
+                                        "material", "neighbors",  "operators", "correction",
+                                        "rhs",      "integrator", "boundary"};
   char *mine = read_text("tests/api/test_null_everywhere.c");
   int missing = 0;
   if (!mine) skip();
