@@ -75,7 +75,7 @@ void sphi_artificial_stress(int32_t dim, const double *sigma, double rho, double
 sph_status sph_artificial_stress(int32_t dim, int64_t n, const double *sigma, const double *rho,
                                  double rho0, double epsilon, double *R) {
   if (dim < 1 || dim > 3 || n < 0 || !isfinite(epsilon)) return SPH_ERR_ARG;
-  if (n > 0 && (!sigma || !R || (!rho && !(rho0 > 0.0)))) return SPH_ERR_ARG;
+  if (n > 0 && (!sigma || !R || (!rho && !(isfinite(rho0) && rho0 > 0.0)))) return SPH_ERR_ARG;
   int32_t c = dim * (dim + 1) / 2;
   for (int64_t i = 0; i < n; ++i)
     sphi_artificial_stress(dim, sigma + i * c, rho ? rho[i] : rho0, epsilon, R + i * c);
