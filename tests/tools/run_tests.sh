@@ -49,7 +49,7 @@ for program in "$@"; do
   printf '%s\0%s\0' "$program" "$dir/$i"
 done | xargs -0 -r -n 2 -P "$jobs" bash -c 'run_one "$@"' run_one
 
-if [ "$i" -eq 0 ]; then
+if [ $# -eq 0 ]; then
   echo 'no test programs'
   echo '0 passed, 1 failed'
   exit 1
