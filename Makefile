@@ -31,6 +31,9 @@ endif
 HAVE_CXX := $(shell command -v $(firstword $(CXX)))
 
 Q := $(if $(filter 1,$(V)),,@)
+# Usage: $(call need,tool,Debian package)
+need = @command -v $(1) > /dev/null 2>&1 || \
+  { echo '$(1) is missing: install the Debian package $(2)'; exit 1; }
 say = $(if $(filter 1,$(V)),,@printf '  %-6s %s\n' '$(1)' '$(2)')
 
 # --- version: base.h is the only place where it stands
@@ -118,6 +121,7 @@ tests: $(UNIT_BIN) $(API_BIN)
 # --- objects and libraries
 # Objects are rebuilt when compiler or flags change; -Werror changes no object.
 $(BUILD)/flags: FORCE
+	$(call need,$(firstword $(CC)),$(notdir $(firstword $(CC))))
 	@mkdir -p $(@D)
 	@printf '%s\n' '$(CC) $(BASE) $(TEST_CPP)' | cmp -s - $@ || \
 	  printf '%s\n' '$(CC) $(BASE) $(TEST_CPP)' > $@
@@ -188,6 +192,7 @@ demo: $(BUILD)/examples/elastic_bar
 	cd $(BUILD)/demo && $(abspath $<)
 
 check: $(UNIT_BIN) $(API_BIN)
+	$(if $(filter file,$(origin CMOCKA)),$(if $(filter 0,$(CMOCKA)),@echo 'cmocka is missing; the built-in harness takes its place: install the Debian package libcmocka-dev'))
 	$(if $(HAVE_CXX),,@echo '$(CXX) is missing, C++ hosts are left out: install the Debian package g++')
 	@JOBS='$(JOBS)' tests/tools/run_tests.sh '$(TEST_ARGS)' $^
 
@@ -202,10 +207,6 @@ bench: $(BENCH_BIN)
 	@for b in $^; do $$b $(BENCH_ARGS) || exit 1; done
 
 # --- checks of the contract
-# Usage: $(call need,tool,Debian package)
-need = @command -v $(1) > /dev/null 2>&1 || \
-  { echo '$(1) is missing: install the Debian package $(2)'; exit 1; }
-
 # Take the exported names from the public headers.
 symbols: $(LIB_A)
 	@CC='$(CC)' tests/tools/make_map.sh $(LIB_A) lib/libsph.map lib/abi/symbols.txt

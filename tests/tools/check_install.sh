@@ -37,15 +37,17 @@ libdir=$dir/usr/lib
 build c_shared "${CC:-cc} -std=c11" host.c $(pkg-config --libs sph)
 build cxx_shared "${CXX:-c++} -std=c++11" host.cc $(pkg-config --libs sph)
 ldd c_shared | grep -q "$libdir/libsph.so" 2>/dev/null || export LD_LIBRARY_PATH="$libdir"
-./c_shared && ./cxx_shared
+./c_shared
+./cxx_shared
 # The archive alone: the linker would prefer the shared object beside it.
 mkdir shared && mv "$libdir"/libsph.so* shared/
 build c_static "${CC:-cc} -std=c11" host.c $(pkg-config --static --libs sph)
 build cxx_static "${CXX:-c++} -std=c++11" host.cc $(pkg-config --static --libs sph)
 unset LD_LIBRARY_PATH
-./c_static && ./cxx_static
+./c_static
+./cxx_static
 mv shared/libsph.so* "$libdir/"
-[ "$(pkg-config --modversion sph)" = "$(./c_static && readlink "$libdir/libsph.so" | sed 's/libsph.so.//')" ]
+[ "$(pkg-config --modversion sph)" = "$(readlink "$libdir/libsph.so" | sed 's/libsph.so.//')" ]
 
 cd - > /dev/null
 $make --no-print-directory BUILD="${BUILD:-build}" PREFIX="$dir/usr" uninstall > "$dir/log"

@@ -49,8 +49,10 @@ for program in "$@"; do
   printf '%s\0%s\0' "$program" "$dir/$i"
 done | xargs -0 -r -n 2 -P "$jobs" bash -c 'run_one "$@"' run_one
 
-if [ "$i" -eq 0 ] && [ $# -eq 0 ]; then
+if [ $# -eq 0 ]; then
   echo 'no test programs'
+  echo '0 passed, 1 failed'
+  exit 1
 fi
 cat "$dir"/*.sum 2>/dev/null |
   awk '{ p += $1; f += $2 } END { printf "%d passed, %d failed\n", p, f; exit f > 0 }'
