@@ -4,6 +4,7 @@
 #include "../rhs_help.h"
 
 #include <ctype.h>
+#include <glob.h>
 
 typedef enum kind {
   CONTEXT,
@@ -558,63 +559,76 @@ static void test_pure(void **state) {
 
 /* --- is everything here? ----------------------------------------------------------------- */
 
-static char *read_text(const char *path) {
+enum { TEXT_ROOM = 1 << 20 };
+
+/* Append a file to a text; 0 when it cannot be read. */
+static int append_file(char *text, const char *path) {
+  size_t used = strlen(text);
   FILE *f = fopen(path, "rb");
-  if (!f) return NULL;
-  char *text = (char *)calloc(1, 1 << 20);
-  assert_non_null(text);
-  size_t n = fread(text, 1, (1 << 20) - 1, f);
-  assert_true(n > 0);
+  if (!f) return 0;
+  size_t n = fread(text + used, 1, TEXT_ROOM - 1 - used, f);
+  assert_true(n > 0 && used + n < TEXT_ROOM - 1);
   (void)fclose(f);
+  return 1;
+}
+
+/* The tests of this kind: this file and those of single subjects. */
+static char *read_tests(void) {
+  glob_t found;
+  char *text = (char *)calloc(1, TEXT_ROOM);
+  assert_non_null(text);
+  if (glob("tests/api/test_null_*.c", 0, NULL, &found) == 0) {
+    for (size_t k = 0; k < found.gl_pathc; ++k) assert_true(append_file(text, found.gl_pathv[k]));
+    globfree(&found);
+  }
   return text;
 }
 
-/* The name before the first parenthesis after SPH_API; 0 at a #define. */
+/* The name before the first parenthesis after SPH_API, with that parenthesis; 0 at a #define. An
+ * initialiser's is that of its macro, without `_sized`. */
 static int name_of(const char *declaration, char *name, size_t room) {
   size_t end = strcspn(declaration, "(;\n"), begin = end, length;
   if (declaration[end] != '(') return 0;
   while (begin > 0 &&
          (isalnum((unsigned char)declaration[begin - 1]) || declaration[begin - 1] == '_'))
     begin--;
-  length = end - begin;
-  if (length < 5 || length >= room || strncmp(declaration + begin, "sph_", 4) != 0) return 0;
+  length = end + 1 - begin;
+  if (length < 6 || length >= room || strncmp(declaration + begin, "sph_", 4) != 0) return 0;
   memcpy(name, declaration + begin, length);
   name[length] = '\0';
+  char *sized = strstr(name, "_sized(");
+  if (sized) memcpy(sized, "(", 2);
   return 1;
 }
 
-static int missing_of(const char *header, const char *mine) {
+static int missing_of(const char *path, const char *tested) {
   int missing = 0;
-  char name[128];
+  char name[128], *header = (char *)calloc(1, TEXT_ROOM);
+  assert_non_null(header);
+  assert_true(append_file(header, path));
   for (const char *at = strstr(header, "SPH_API "); at; at = strstr(at + 8, "SPH_API "))
-    if (name_of(at + 8, name, sizeof name) && strstr(mine, name) == NULL) {
-      print_error("%s is not tested with NULL here\n", name);
+    if (name_of(at + 8, name, sizeof name) && strstr(tested, name) == NULL) {
+      print_error("%s) is not tested with NULL\n", name);
       missing++;
     }
+  free(header);
   return missing;
 }
 
 /* Run from the top of the tree, as the Makefile does; elsewhere there is nothing to read. */
 static void test_complete(void **state) {
   (void)state;
-  static const char *const headers[] = {"base",       "context",  "particles", "kernel",
-                                        "layout",     "material", "neighbors", "operators",
-                                        "correction", "rhs",      "integrator"};
-  static const char *const headers[] = {"base",     "context",    "particles", "kernel",
-                                        "material", "neighbors",  "operators", "correction",
-                                        "rhs",      "integrator", "boundary"};
-  char *mine = read_text("tests/api/test_null_everywhere.c");
+  glob_t headers;
+  char *tested = read_tests();
   int missing = 0;
-  if (!mine) skip();
-  for (size_t k = 0; k < sizeof headers / sizeof *headers; k++) {
-    char path[64];
-    (void)snprintf(path, sizeof path, "include/sph/%s.h", headers[k]);
-    char *header = read_text(path);
-    assert_non_null(header);
-    missing += missing_of(header, mine);
-    free(header);
+  if (!*tested || glob("include/sph/*.h", 0, NULL, &headers) != 0) {
+    free(tested);
+    skip();
   }
-  free(mine);
+  for (size_t k = 0; k < headers.gl_pathc; ++k)
+    if (!strstr(headers.gl_pathv[k], "/base.h")) missing += missing_of(headers.gl_pathv[k], tested);
+  globfree(&headers);
+  free(tested);
   assert_int_equal(missing, 0);
 }
 
