@@ -108,7 +108,7 @@ ALL_BIN := $(UNIT_BIN) $(API_BIN) $(BENCH_BIN) $(EXAMPLE_BIN) $(CASE_BIN)
 HEADERS := $(sort $(wildcard include/sph/*.h))
 
 .PHONY: all lib examples tests demo check check-long validate validate-long bench symbols \
-  check-headers check-symbols check-layers check-readme check-abi record-abi check-asan check-tsan \
+  check-headers check-symbols check-layers check-readme check-abi record-abi check-asan check-tsan check-aarch64 \
   check-valgrind check-install format check-format install uninstall clean help FORCE
 .DELETE_ON_ERROR:
 .SECONDARY:
@@ -244,6 +244,17 @@ check-tsan:
 comma := ,
 export WRAP TIMEOUT
 
+# Another architecture, emulated: no vectors but those of the compiler.
+CROSS := aarch64-linux-gnu
+check-aarch64:
+	$(call need,$(CROSS)-gcc,gcc-$(CROSS))
+	$(call need,$(CROSS)-g++,g++-$(CROSS))
+	$(call need,qemu-aarch64,qemu-user)
+	@test -e /usr/$(CROSS)/include/stdio.h || \
+	  { echo 'the C library is missing: install the Debian package libc6-dev-arm64-cross'; exit 1; }
+	+@$(MAKE) BUILD='$(BUILD)-aarch64' CC='$(CROSS)-gcc' CXX='$(CROSS)-g++' AR='$(CROSS)-ar' \
+	  CFLAGS='-O2 -g -DSPHI_FEW_INSTANCES' WRAP='qemu-aarch64 -L /usr/$(CROSS)' TIMEOUT=1200 check
+
 check-valgrind: $(UNIT_BIN) $(API_BIN)
 	$(call need,valgrind,valgrind)
 	@JOBS='$(JOBS)' TIMEOUT=1800 WRAP='valgrind --quiet --leak-check=full --error-exitcode=9' \
@@ -280,7 +291,7 @@ uninstall:
 	rmdir '$(DESTDIR)$(includedir)/sph' 2>/dev/null || true
 
 clean:
-	rm -rf $(BUILD) $(BUILD)-asan $(BUILD)-tsan
+	rm -rf $(BUILD) $(BUILD)-asan $(BUILD)-tsan $(BUILD)-aarch64
 	rm -f $(SO) $(SO_LINKS) $(LIB_A)
 
 help:
@@ -296,6 +307,7 @@ help:
 	@echo 'make check-abi      against the recorded ABI; record-abi records it'
 	@echo 'make symbols        rewrite lib/libsph.map and lib/abi/symbols.txt from the headers'
 	@echo 'make check-asan check-tsan check-valgrind   the tests under sanitizers'
+	@echo 'make check-aarch64  the tests built for another architecture, under qemu'
 	@echo 'make check-install  install elsewhere, use it through pkg-config'
 	@echo 'make format check-format   clang-format'
 	@echo 'make install uninstall     PREFIX=$(PREFIX), DESTDIR'

@@ -5,11 +5,13 @@
  * cache; then their places are known, and the next wave begins by copying them there. The list
  * depends on neither the cut into chunks nor the number of threads.
  *
- * A slot or a candidate buffer that is too small ends its chunk early: rows done so far count,
- * what follows is searched again, with larger buffers. The pair array itself starts from an
- * estimate (a sample of groups) and grows when that was too low. */
+ * Chunks are cut so that slots will do if rows get no longer than the longest lately. A slot or a
+ * candidate buffer that is too small all the same ends its chunk early: rows done so far count,
+ * what follows is searched again. The pair array itself starts from an estimate (a sample of
+ * groups) and grows when that was too low. */
 #include "search.h"
 
+#include <math.h>
 #include <string.h>
 
 #if defined(__SSE2__)
@@ -17,17 +19,23 @@
 #endif
 
 enum {
-  CHUNK = 1024,   /* rows of a chunk, as long as slots suffice */
+  CHUNK = 1024,   /* most rows of a chunk */
   SLOTS_EACH = 4, /* slots a worker: for balance */
+  ROOM = 256,     /* pairs that a slot has at first for each row of a chunk */
   FIRST_CANDIDATES = 4096,
-  ARRAYS = 8, /* of candidates: see sphi_candidates */
-  SKEW = 80,  /* so that candidate arrays do not start at the same cache sets */
-  SAMPLES = 96,
+  ARRAYS = 8,    /* of candidates: see sphi_candidates */
+  SKEW = 80,     /* so that candidate arrays do not start at the same cache sets */
+  SAMPLES = 384, /* most samples, of so many rows, one for so many of all rows */
+  SAMPLE_ROWS = 8,
+  SAMPLE_EVERY = 256,
+  KEEP_GRAIN = 1 << 16,
   LARGE_LIST = 1 << 25 /* bytes; larger than what caches keep */
 };
 
-static const int64_t first_slot = (int64_t)1 << 17; /* pairs */
-static const int64_t large_slot = (int64_t)1 << 22;
+static const int64_t large_slot = (int64_t)1 << 22; /* pairs */
+/* Chunks are meant to fill this part of a slot: rows may get three times longer from one wave to
+ * the next. What is not used of a slot is never touched. */
+static const double part_of_slot = 1.0 / 3.0;
 
 typedef struct slot {
   int64_t begin, end, done; /* rows: asked for, and first one not done */
@@ -49,7 +57,10 @@ typedef struct fill {
   int64_t slot_count;
   int64_t next;  /* first row that is not yet placed */
   int64_t total; /* pairs placed */
-  int64_t chunk;
+  int64_t most;  /* rows of a chunk, at most: for the balance of small sets */
+  double recent; /* pairs of a row: the mean of the chunk with the longest rows of the last wave */
+  int64_t samples;
+  float sample[SAMPLES]; /* pairs of a row, here and there */
 } fill;
 
 /* --- one chunk --- */
@@ -225,13 +236,25 @@ static int64_t pair_capacity(const sphi_pairs *p) {
   return (int64_t)(p->b_pair.bytes / sizeof(uint32_t)) - SPHI_ROW_PADDING;
 }
 
+typedef struct keep_job {
+  uint32_t *to;
+  const uint32_t *from;
+} keep_job;
+
+static void keep_body(void *job, int64_t begin, int64_t end, int32_t worker) {
+  const keep_job *k = job;
+  (void)worker;
+  memcpy(k->to + begin, k->from + begin, (size_t)(end - begin) * sizeof *k->to);
+}
+
 /* Room for `need` pairs, keeping what is placed. The old array stays until the new one is there. */
 static sph_status grow_pairs(fill *f, int64_t need, int64_t placed) {
   sphi_buffer old = f->p->b_pair, new = {NULL, 0};
   size_t bytes = sphi_mul((size_t)need + SPHI_ROW_PADDING, sizeof(uint32_t));
   sph_status s = sphi_buffer_reserve(f->ctx, &new, bytes);
   if (s != SPH_OK) return s;
-  if (placed > 0) memcpy(new.ptr, old.ptr, (size_t)placed * sizeof(uint32_t));
+  keep_job keep = {new.ptr, old.ptr};
+  sphi_parallel(f->ctx, placed, KEEP_GRAIN, keep_body, &keep);
   f->p->b_pair = new;
   f->list->pair = new.ptr;
   sphi_buffer_free(f->ctx, &old);
@@ -259,12 +282,24 @@ static void flush(fill *f) {
   run_wave(f);
 }
 
+/* Rows that a chunk beginning here should have: as if all were as long as the longest of the last
+ * wave and of the samples around. */
+static int64_t rows_of_chunk(const fill *f, int64_t row) {
+  int64_t at = (int64_t)((double)row * (double)f->samples / (double)f->l->n);
+  double longest = fmax(f->recent, 1.0);
+  for (int64_t k = at > 0 ? at - 1 : 0; k < f->samples && k <= at + 1; k++)
+    longest = fmax(longest, (double)f->sample[k]);
+  double rows = part_of_slot * (double)f->p->slot_capacity / longest;
+  return rows < SPHI_BLOCK ? SPHI_BLOCK : rows > (double)f->most ? f->most : (int64_t)rows;
+}
+
 static void hand_out_chunks(fill *f) {
   int64_t row = f->next;
   no_chunks(f);
   for (int64_t k = 0; k < f->slot_count && row < f->l->n; k++) {
+    int64_t rows = rows_of_chunk(f, row);
     f->slots[k].begin = row;
-    row = f->l->n - row < f->chunk ? f->l->n : row + f->chunk;
+    row = f->l->n - row < rows ? f->l->n : row + rows;
     f->slots[k].end = row;
   }
 }
@@ -311,26 +346,31 @@ static sph_status assign_places(fill *f) {
   return SPH_OK;
 }
 
-/* After a wave: larger buffers where a chunk ended early, and a better length of chunks. */
+static double row_length(const slot *s) {
+  return s->done > s->begin ? (double)s->count / (double)(s->done - s->begin) : 0.0;
+}
+
+static double longest_rows(const fill *f) {
+  double longest = 0.0;
+  for (int64_t k = 0; k < f->slot_count && f->slots[k].begin < f->slots[k].end; k++)
+    longest = fmax(longest, row_length(&f->slots[k]));
+  return longest;
+}
+
+/* After a wave: larger buffers where a chunk ended early. */
 static sph_status adapt(fill *f) {
   sphi_pairs *p = f->p;
   int64_t candidates = p->candidate_capacity, pairs = p->slot_capacity;
-  int64_t shortest = INT64_MAX;
+  f->recent = longest_rows(f);
   for (int64_t k = 0; k < f->slot_count; k++) {
     const slot *s = &f->slots[k];
     if (s->done >= s->end) continue;
     int64_t done = s->done - s->begin;
-    if (done < shortest) shortest = done;
     if (s->need_candidates > candidates) candidates = s->need_candidates + s->need_candidates / 2;
     if (done == 0 && s->need_pairs > pairs) pairs = 2 * s->need_pairs;
     if (done < SPHI_BLOCK && s->need_pairs > 0 && 2 * p->slot_capacity <= large_slot)
       pairs = pairs > 2 * p->slot_capacity ? pairs : 2 * p->slot_capacity;
   }
-  if (shortest == INT64_MAX) {
-    f->chunk = 2 * f->chunk < CHUNK ? 2 * f->chunk : CHUNK;
-    return SPH_OK;
-  }
-  f->chunk = shortest > SPHI_BLOCK ? shortest - shortest / 4 : SPHI_BLOCK;
   if (candidates == p->candidate_capacity && pairs == p->slot_capacity) return SPH_OK;
   flush(f);
   return reserve_buffers(f, candidates, pairs);
@@ -351,19 +391,33 @@ static sph_status run_waves(fill *f) {
 
 /* --- the estimate --- */
 
-/* Pairs of a few groups spread over the layout, extrapolated. */
-static double estimate(fill *f) {
-  int64_t n = f->l->n, rows = 0, pairs = 0;
-  for (int64_t k = 0; k < SAMPLES; k++) {
+static void sample_body(void *job, int64_t begin, int64_t end, int32_t worker) {
+  fill *f = job;
+  int64_t n = f->l->n;
+  for (int64_t k = begin; k < end; k++) {
     slot s;
     memset(&s, 0, sizeof s);
-    s.begin = (int64_t)((double)n * ((double)k + 0.5) / SAMPLES);
-    s.end = s.begin + 16 < n ? s.begin + 16 : n;
-    search_chunk(f, &s, slot_memory(f, 0), 0);
-    rows += s.done - s.begin;
-    pairs += s.count;
+    s.begin = (int64_t)((double)n * ((double)k + 0.5) / (double)f->samples);
+    s.end = s.begin + SAMPLE_ROWS < n ? s.begin + SAMPLE_ROWS : n;
+    search_chunk(f, &s, slot_memory(f, worker), worker);
+    f->sample[k] = (float)row_length(&s);
   }
-  return rows > 0 ? (double)pairs / (double)rows * (double)n : 0.0;
+}
+
+/* Pairs of a few rows here and there, extrapolated; on the safe side, by the standard error of
+ * the mean. */
+static double estimate(fill *f) {
+  double sum = 0.0, squares = 0.0;
+  f->samples = f->l->n / SAMPLE_EVERY + 1;
+  if (f->samples > SAMPLES) f->samples = SAMPLES;
+  /* each worker needs a slot */
+  int64_t grain = f->slot_count < sphi_workers(f->ctx) ? SAMPLES : 1;
+  sphi_parallel(f->ctx, f->samples, grain, sample_body, f);
+  for (int64_t k = 0; k < f->samples; k++) sum += (double)f->sample[k];
+  double mean = sum / (double)f->samples;
+  for (int64_t k = 0; k < f->samples; k++)
+    squares += ((double)f->sample[k] - mean) * ((double)f->sample[k] - mean);
+  return (mean + sqrt(squares) / (double)f->samples) * (double)f->l->n;
 }
 
 /* Begin with an array that will probably do; a little short is left to growth. */
@@ -373,7 +427,7 @@ static sph_status begin_pairs(fill *f) {
   if (most > 0.0 && expected > most) expected = most;
   if (expected <= 1.02 * (double)pair_capacity(f->p) && f->p->b_pair.ptr != NULL) return SPH_OK;
   if (expected > 4e18) expected = 4e18;
-  return grow_pairs(f, (int64_t)(1.04 * expected) + 4096, 0);
+  return grow_pairs(f, (int64_t)(1.02 * expected) + 4096, 0);
 }
 
 static void finish(fill *f) {
@@ -382,11 +436,13 @@ static void finish(fill *f) {
 }
 
 static sph_status set_up(fill *f) {
-  int64_t workers = sphi_workers(f->ctx);
-  f->slot_count = workers > 1 ? workers * SLOTS_EACH : 1;
+  int64_t workers = sphi_workers(f->ctx), blocks = f->l->n / SPHI_BLOCK + 1;
+  f->slot_count = workers == 1 ? 1 : workers * SLOTS_EACH < blocks ? workers * SLOTS_EACH : blocks;
+  f->most = f->l->n / f->slot_count;
+  f->most = f->most < SPHI_BLOCK ? SPHI_BLOCK : f->most > CHUNK ? CHUNK : f->most;
   int64_t candidates = f->p->candidate_capacity, pairs = f->p->slot_capacity;
   if (candidates == 0) candidates = FIRST_CANDIDATES;
-  if (pairs == 0) pairs = first_slot;
+  if (pairs < ROOM * f->most) pairs = ROOM * f->most;
   sph_status s = sphi_buffer_reserve(f->ctx, &f->p->b_rows, (size_t)f->slot_count * sizeof(slot));
   if (s == SPH_OK) s = reserve_buffers(f, candidates, pairs);
   if (s != SPH_OK) return s;
@@ -398,12 +454,8 @@ static sph_status set_up(fill *f) {
 
 sph_status sphi_fill(sph_neighbors *list, sphi_layout *l) {
   sph_context *ctx = list->base.ctx;
-  fill f = {.list = list,
-            .ctx = ctx,
-            .l = l,
-            .p = &list->priv->pairs,
-            .chunk = CHUNK,
-            .search = sphi_search_of(ctx)};
+  fill f = {
+      .list = list, .ctx = ctx, .l = l, .p = &list->priv->pairs, .search = sphi_search_of(ctx)};
   sph_status s = set_up(&f);
   if (s == SPH_OK && l->n > 0) s = begin_pairs(&f);
   if (s == SPH_OK && f.p->b_pair.ptr == NULL) s = grow_pairs(&f, 0, 0);

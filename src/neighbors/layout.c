@@ -54,8 +54,10 @@ static void pad_positions(sphi_layout *l) {
   if (l->s != NULL) memset(l->s + n, 0, SPHI_POSITION_PADDING * sizeof(double));
 }
 
-static void identity_order(sphi_layout *l) {
-  for (int64_t k = 0; k < l->n; k++) l->order[k] = (uint32_t)k;
+static void identity_body(void *job, int64_t begin, int64_t end, int32_t worker) {
+  const sphi_layout *l = job;
+  (void)worker;
+  for (int64_t k = begin; k < end; k++) l->order[k] = (uint32_t)k;
 }
 
 /* The order first: cells and the tree sort, all pairs keep the host's order. */
@@ -65,7 +67,7 @@ static sph_status make_order(const sph_neighbors *list, sphi_layout *l, const sp
   if (l->method == SPH_NEIGHBORS_TREE) return sphi_tree_build(ctx, l, in, tmp);
   if (l->method != SPH_NEIGHBORS_ALL_PAIRS)
     return sphi_cells_build(ctx, l, in, &list->options, tmp);
-  identity_order(l);
+  sphi_parallel(ctx, l->n, GRAIN, identity_body, l);
   return SPH_OK;
 }
 

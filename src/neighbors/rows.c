@@ -5,12 +5,13 @@
 #include <math.h>
 #include <string.h>
 
-enum { GRAIN = 256, SMALL = 16 };
+enum { GRAIN = 256, SMALL = 16, PIECES = 64 /* of the prefix sum */ };
 
 typedef struct rows_job {
   const sph_neighbors *list;
   int64_t *offsets;
   int32_t *indices;
+  int64_t piece[PIECES + 1];
 } rows_job;
 
 /* --- rows --- */
@@ -38,6 +39,37 @@ static void count_body(void *job, int64_t begin, int64_t end, int32_t worker) {
       count += is_near(list, k, list->pair[p]);
     r->offsets[list->order[k] + 1] = count;
   }
+}
+
+static int64_t piece_begin(const rows_job *r, int64_t piece) { return r->list->n * piece / PIECES; }
+
+static void piece_sums(void *job, int64_t begin, int64_t end, int32_t worker) {
+  rows_job *r = job;
+  (void)worker;
+  for (int64_t p = begin; p < end; p++) {
+    int64_t sum = 0;
+    for (int64_t i = piece_begin(r, p); i < piece_begin(r, p + 1); i++) sum += r->offsets[i + 1];
+    r->piece[p + 1] = sum;
+  }
+}
+
+static void piece_offsets(void *job, int64_t begin, int64_t end, int32_t worker) {
+  rows_job *r = job;
+  (void)worker;
+  for (int64_t p = begin; p < end; p++) {
+    int64_t sum = r->piece[p];
+    for (int64_t i = piece_begin(r, p); i < piece_begin(r, p + 1); i++)
+      r->offsets[i + 1] = sum += r->offsets[i + 1];
+  }
+}
+
+/* offsets[i + 1], so far the length of row i, becomes where it ends. */
+static void sum_lengths(sph_context *ctx, rows_job *r) {
+  int64_t grain = r->list->n > PIECES * GRAIN ? 1 : PIECES;
+  sphi_parallel(ctx, PIECES, grain, piece_sums, r);
+  r->offsets[0] = r->piece[0] = 0;
+  for (int p = 0; p < PIECES; p++) r->piece[p + 1] += r->piece[p];
+  sphi_parallel(ctx, PIECES, grain, piece_offsets, r);
 }
 
 static void insertion_sort(int32_t *v, int64_t n) {
@@ -122,10 +154,9 @@ static sph_status make_rows(sph_neighbors *list) {
   size_t n = (size_t)list->n;
   sph_status s = sphi_buffer_reserve(ctx, &p->b_offsets, sphi_mul(n + 1, sizeof(int64_t)));
   if (s != SPH_OK) return s;
-  rows_job job = {list, p->b_offsets.ptr, NULL};
-  job.offsets[0] = 0;
+  rows_job job = {.list = list, .offsets = p->b_offsets.ptr};
   sphi_parallel(ctx, list->n, GRAIN, count_body, &job);
-  for (size_t i = 0; i < n; i++) job.offsets[i + 1] += job.offsets[i];
+  sum_lengths(ctx, &job);
   s = sphi_buffer_reserve(ctx, &p->b_indices,
                           sphi_mul((size_t)job.offsets[n] + 1, sizeof(int32_t)));
   if (s != SPH_OK) return s;

@@ -211,9 +211,16 @@ static void offsets(tree_job *t) {
 
 /* --- numbering leaves before they are made --- */
 
+/* Halving gives parts of two sizes on every level: `small` ones of size m, `large` ones of m + 1.
+ */
 static uint32_t leaves_of(uint32_t n) {
-  if (n <= SPHI_LEAF) return n > 0;
-  return leaves_of(n / 2) + leaves_of(n - n / 2);
+  uint32_t m = n, small = n > 0, large = 0;
+  for (; m > SPHI_LEAF; m /= 2) {
+    uint32_t s = small, l = large;
+    small = m % 2 ? s : 2 * s + l; /* an odd part gives one of each, an even one two equal ones */
+    large = m % 2 ? s + 2 * l : l;
+  }
+  return small + (m == SPHI_LEAF ? 2 * large : large);
 }
 
 static uint32_t number_leaves(top *t) {

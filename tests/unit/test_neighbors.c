@@ -2,7 +2,7 @@
  * rule, instruction set and number of threads; and the layout that the pair loops read. */
 #include "check.h"
 
-#include "../../src/neighbors/neighbors_impl.h"
+#include "../../src/neighbors/layout.h"
 
 #include <stdlib.h>
 
@@ -302,6 +302,82 @@ static void test_large(void **state) {
   free(h);
 }
 
+/* A crowd in which everyone is everyone's neighbour, among particles that have none: buffers made
+ * for the latter end their chunks early, in the middle of a row block. */
+static void test_crowd(void **state) {
+  (void)state;
+  enum { ALONE = 3000, CROWD = 4200, ALL = ALONE + CROWD };
+  static const int32_t methods[] = {SPH_NEIGHBORS_CELLS, SPH_NEIGHBORS_TREE};
+  double *x = malloc(ALL * 2 * sizeof *x);
+  cloud c = {.support = 2.0};
+  for (int64_t i = 0; i < ALL; i++) {
+    x[2 * i] = i < ALONE ? (double)(i % 50) : 200.0 + 0.01 * uniform();
+    x[2 * i + 1] = i < ALONE ? (double)(i / 50) : 200.0 + 0.01 * uniform();
+  }
+  for (int k = 0; k < 2; k++) {
+    sph_context *ctx = make_context(SPH_ISA_AUTO, k == 0 ? 3 : 1);
+    sph_neighbors *list = make_list(ctx, &c, methods[k], SPH_H_MAX, 0.0);
+    check_ok(sph_neighbors_build_arrays(list, 2, ALL, x, NULL, 0.25));
+    for (int64_t i = 0; i < ALL; i++) {
+      int64_t length = list->start[i + 1] - list->start[i];
+      assert_int_equal(length, list->order[i] < ALONE ? 0 : CROWD - 1);
+      for (int64_t p = list->start[i]; p < list->start[i + 1]; p++)
+        if (list->order[list->pair[p]] < ALONE || list->pair[p] == i) fail_msg("a wrong pair");
+    }
+    sph_neighbors_destroy(list);
+    sph_context_destroy(ctx);
+  }
+  free(x);
+}
+
+/* Leaves are counted before they are made. */
+static void test_leaves(void **state) {
+  (void)state;
+  enum { LARGEST = 20000 };
+  sph_context *ctx = make_context(SPH_ISA_AUTO, 1);
+  double *x = malloc(LARGEST * sizeof *x);
+  cloud c = {.support = 2.0};
+  sph_neighbors *list = make_list(ctx, &c, SPH_NEIGHBORS_TREE, SPH_H_MAX, 0.0);
+  for (int64_t i = 0; i < LARGEST; i++) x[i] = uniform();
+  for (int64_t n = 1; n <= LARGEST; n += n < 700 ? 1 : 1 + n / 3) {
+    check_ok(sph_neighbors_build_arrays(list, 1, n, x, NULL, 1e-7));
+    const sphi_tree *tree = &list->priv->layout[0].tree;
+    assert_int_equal(tree->leaf[0], 0);
+    assert_int_equal(tree->leaf[tree->leaf_count], n);
+    for (uint32_t k = 0; k < tree->leaf_count; k++)
+      assert_in_range(tree->leaf[k + 1], tree->leaf[k] + 1, tree->leaf[k] + SPHI_LEAF);
+  }
+  sph_neighbors_destroy(list);
+  sph_context_destroy(ctx);
+  free(x);
+}
+
+/* Offsets of the public rows, summed in pieces. */
+static void test_many_rows(void **state) {
+  (void)state;
+  enum { N = 40000 };
+  sph_context *ctx = make_context(SPH_ISA_AUTO, 3);
+  double *x = malloc(N * sizeof *x);
+  cloud c = {.support = 2.0};
+  const int64_t *offsets;
+  const int32_t *indices;
+  for (int64_t i = 0; i < N; i++) x[i] = uniform();
+  sph_neighbors *list = make_list(ctx, &c, SPH_NEIGHBORS_CELLS, SPH_H_MAX, 0.0);
+  check_ok(sph_neighbors_build_arrays(list, 1, N, x, NULL, 1.0 / N));
+  check_ok(sph_neighbors_rows(list, &offsets, &indices));
+  assert_int_equal(offsets[0], 0);
+  assert_int_equal(offsets[N], sph_neighbors_pairs(list));
+  for (int64_t k = 0; k < N; k++) {
+    int64_t i = list->order[k], count = list->start[k + 1] - list->start[k];
+    assert_int_equal(offsets[i + 1] - offsets[i], count);
+    for (int64_t p = offsets[i]; p < offsets[i + 1]; p++)
+      if (!(fabs(x[indices[p]] - x[i]) < 2.0 / N)) fail_msg("row %lld", (long long)i);
+  }
+  sph_neighbors_destroy(list);
+  sph_context_destroy(ctx);
+  free(x);
+}
+
 /* --- extremes --- */
 
 /* Everything that all methods must agree on, against the oracle. */
@@ -499,6 +575,9 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_ties),
     cmocka_unit_test(test_small_boxes),
     cmocka_unit_test(test_large),
+    cmocka_unit_test(test_crowd),
+    cmocka_unit_test(test_leaves),
+    cmocka_unit_test(test_many_rows),
     cmocka_unit_test(test_extremes),
     cmocka_unit_test(test_scales),
     cmocka_unit_test(test_sparse_memory),
