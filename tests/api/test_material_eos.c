@@ -1,9 +1,7 @@
 /* Equations of state: derivatives by differences, sound speeds along isentropes that are integrated
  * step by step, shocks by the jump conditions, published states, continuity, inverses, ranges. */
-#include "../check.h"
 #include "../oom.h"
-
-#include <sph/sph.h>
+#include "../rhs_help.h"
 
 static uint64_t random_state = 21;
 static double random_in(double low, double high) { /* splitmix64 */
@@ -686,6 +684,34 @@ static void test_metal_with_strength(void **state) {
   sph_context_destroy(ctx);
 }
 
+/* In a composed right-hand side the particle is named as the set counts it, whatever the threads.
+ */
+static void test_named_in_a_right_hand_side(void **state) {
+  (void)state;
+  for (int32_t threads = 1; threads <= 3; threads++) {
+    enum { N = 5000 };
+    sph_context *ctx = rh_context(threads);
+    rh_system s = rh_make(ctx, 1, N, 0, 4);
+    sph_material *air = gas(ctx, 1.4, 0, 0);
+    sph_rhs *rhs = rh_rhs(&s);
+    sph_term t = rh_term(SPH_TERM_PRESSURE, 0, 0);
+    double *e = rh_field(&s, SPH_FIELD_E), *rates = (double *)calloc(N, sizeof *rates);
+    sph_rate rate = {SPH_FIELD_V, rates};
+    check_ok(sph_rhs_add(rhs, &t));
+    check_ok(sph_rhs_set_material(rhs, 0, air));
+    for (int i = 0; i < N; i++) e[i] = 1;
+    check_ok(sph_rhs_evaluate(rhs, s.set, s.list, 0.0, &rate, 1));
+    e[4711] = e[3001] = -1;
+    refused(ctx, sph_rhs_evaluate(rhs, s.set, s.list, 0.0, &rate, 1), SPH_ERR_NUMERIC,
+            "pressure: particle 3001: energy -1 is below 0");
+    free(rates);
+    sph_rhs_destroy(rhs);
+    sph_material_destroy(air);
+    rh_free(&s);
+    sph_context_destroy(ctx);
+  }
+}
+
 /* ---- constants ---- */
 
 /* Every entry of the homogenised material is 3/4 aluminium 2024 + 1/4 epoxy, as printed. */
@@ -830,6 +856,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_bad_states),
     cmocka_unit_test(test_host_law),
     cmocka_unit_test(test_metal_with_strength),
+    cmocka_unit_test(test_named_in_a_right_hand_side),
     cmocka_unit_test(test_homogenised_constants),
     cmocka_unit_test(test_constants_refusals),
     cmocka_unit_test(test_creation_refusals),
