@@ -145,8 +145,10 @@ void sphi_eigen_symmetric(int32_t dim, const double *packed, double *values, dou
     for (int32_t k = 0; k < dim * dim && vectors != NULL; k++) vectors[k] = NAN;
     return;
   }
-  if (largest > 0) (void)frexp(largest, &exponent);
-  for (int32_t k = 0; k < count; k++) scaled[k] = ldexp(packed[k], -exponent);
+  /* cubes of the entries must be doubles; a power of two changes no bit of the result */
+  if (largest > 0 && !(largest > 0x1p-200 && largest < 0x1p200)) (void)frexp(largest, &exponent);
+  for (int32_t k = 0; k < count; k++)
+    scaled[k] = exponent == 0 ? packed[k] : ldexp(packed[k], -exponent);
   if (dim == 1) {
     values[0] = scaled[0];
     if (vectors != NULL) vectors[0] = 1;
@@ -155,5 +157,5 @@ void sphi_eigen_symmetric(int32_t dim, const double *packed, double *values, dou
   } else {
     eigen_3(scaled, values, vectors);
   }
-  for (int32_t k = 0; k < dim; k++) values[k] = ldexp(values[k], exponent);
+  for (int32_t k = 0; k < dim && exponent != 0; k++) values[k] = ldexp(values[k], exponent);
 }
