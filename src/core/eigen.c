@@ -28,7 +28,7 @@ static void plane_rotation(double a, double b, double d, double *c, double *s) {
   *s = 0;
   if (!(length > 0)) return;
   /* cos and sin of twice the angle are half/length and b/length */
-  double larger = sqrt(0.5 * (1 + fabs(half) / length)), smaller = 0.5 * b / length / larger;
+  double larger = sqrt(0.5 * (1 + fabs(half) / length)), smaller = 0.5 * (b / length) / larger;
   *c = half >= 0 ? larger : fabs(smaller);
   *s = half >= 0 ? smaller : copysign(larger, b);
 }
@@ -115,16 +115,29 @@ static void exchange(double *values, double frame[3][3], int a, int b) {
   }
 }
 
+/* Multiply by a power of two, if need be, that makes squares and cubes of the entries ordinary
+ * doubles; returns its exponent. It changes no bit of the result. */
+static int scale_to_one(int32_t count, double *m) {
+  double largest = 0;
+  int exponent = 0;
+  for (int32_t k = 0; k < count; k++) largest = fmax(largest, fabs(m[k]));
+  if (!(largest > 0) || (largest > 0x1p-200 && largest < 0x1p200)) return 0;
+  (void)frexp(largest, &exponent);
+  for (int32_t k = 0; k < count; k++) m[k] = ldexp(m[k], -exponent);
+  return exponent;
+}
+
 static void eigen_3(const double *m, double *values, double *vectors) {
   double b[6], mean = (m[0] + m[1] + m[2]) / 3, frame[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   for (int k = 0; k < 6; k++) b[k] = k < 3 ? m[k] - mean : m[k];
+  const int exponent = scale_to_one(6, b); /* they may be tiny beside the mean */
   double off = dot(b + 3, b + 3), size = sqrt((dot(b, b) + 2 * off) / 6);
-  if (!(off > 0) || !(size > 0)) { /* diagonal: exact */
+  if (!(off > 0)) { /* diagonal: exact */
     memcpy(values, m, 3 * sizeof *values);
   } else {
     for (int k = 0; k < 6; k++) b[k] /= size;
     eigen_normalised(b, values, frame);
-    for (int k = 0; k < 3; k++) values[k] = mean + size * values[k];
+    for (int k = 0; k < 3; k++) values[k] = mean + ldexp(size * values[k], exponent);
   }
   exchange(values, frame, 0, 1);
   exchange(values, frame, 1, 2);
@@ -134,19 +147,15 @@ static void eigen_3(const double *m, double *values, double *vectors) {
 
 void sphi_eigen_symmetric(int32_t dim, const double *packed, double *values, double *vectors) {
   const int32_t count = dim * (dim + 1) / 2;
-  double scaled[6], largest = 0;
-  int exponent = 0, finite = 1;
-  for (int32_t k = 0; k < count; k++) {
-    finite &= isfinite(packed[k]) != 0;
-    largest = fmax(largest, fabs(packed[k]));
-  }
+  double scaled[6];
+  int finite = 1;
+  for (int32_t k = 0; k < count; k++) finite &= isfinite(scaled[k] = packed[k]) != 0;
   if (!finite) {
     for (int32_t k = 0; k < dim; k++) values[k] = NAN;
     for (int32_t k = 0; k < dim * dim && vectors != NULL; k++) vectors[k] = NAN;
     return;
   }
-  if (largest > 0) (void)frexp(largest, &exponent);
-  for (int32_t k = 0; k < count; k++) scaled[k] = ldexp(packed[k], -exponent);
+  const int exponent = scale_to_one(count, scaled);
   if (dim == 1) {
     values[0] = scaled[0];
     if (vectors != NULL) vectors[0] = 1;

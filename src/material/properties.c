@@ -266,20 +266,28 @@ sph_status sph_material_pressure_derivatives(const sph_material *material,
   return sphi_material_explain(material, property, &mine, 0, status);
 }
 
+/* A host's law does not say what it needs: F must be there all the same. */
+static sph_status check_of_f(const sph_material *material, int32_t property,
+                             const sph_material_block *b, const double *out) {
+  sph_material_block mine;
+  sph_status status = check_call(material, property, b, out, &mine);
+  if (status == SPH_OK && b->n > 0 && b->deformation_gradient == NULL)
+    return sphi_fail(material->object.ctx, SPH_ERR_ARG, "%s: F is NULL", property_name(property));
+  return status;
+}
+
 sph_status sph_material_cauchy_stress(const sph_material *material, int32_t dim, int64_t n,
                                       const double *F, double *sigma) {
   const sph_material_block b = sphi_material_block_of_f(dim, n, F);
-  return evaluate(material, SPHI_MATERIAL_CAUCHY_STRESS, &b, sigma);
+  sph_status status = check_of_f(material, SPHI_MATERIAL_CAUCHY_STRESS, &b, sigma);
+  return status == SPH_OK ? evaluate(material, SPHI_MATERIAL_CAUCHY_STRESS, &b, sigma) : status;
 }
 
 sph_status sph_material_first_piola(const sph_material *material, int32_t dim, int64_t n,
                                     const double *F, double *P, double *energy) {
   const sph_material_block b = sphi_material_block_of_f(dim, n, F);
-  sph_material_block mine;
-  sph_status status = check_call(material, SPHI_MATERIAL_FIRST_PIOLA, &b, P, &mine);
+  sph_status status = check_of_f(material, SPHI_MATERIAL_FIRST_PIOLA, &b, P);
   if (status != SPH_OK) return status;
-  if (n > 0 && F == NULL)
-    return sphi_fail(material->object.ctx, SPH_ERR_ARG, "first_piola: F is NULL");
   status = sphi_material_first_piola_quiet(material, dim, n, F, P, energy);
   return sphi_material_explain(material, SPHI_MATERIAL_FIRST_PIOLA, &b, 0, status);
 }

@@ -94,7 +94,7 @@ static void test_repeated(void **state) {
 
 static void test_nearly_diagonal(void **state) {
   (void)state;
-  for (int power = 0; power <= 320; power += 4)
+  for (int power = 0; power <= 323; power++)
     for (int trial = 0; trial < 20; trial++) {
       double off = pow(10, -power);
       const double three[6] = {
