@@ -13,5 +13,6 @@
 #include <sph/operators.h>
 #include <sph/particles.h>
 #include <sph/rhs.h>
+#include <sph/stress_points.h>
 
 #endif
