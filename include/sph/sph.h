@@ -18,5 +18,6 @@
 #include <sph/plasticity.h>
 #include <sph/rhs.h>
 #include <sph/stress.h>
+#include <sph/stress_points.h>
 
 #endif

@@ -16,6 +16,7 @@ typedef enum kind {
   INTEGRATOR,
   GHOSTS,
   HOLD,
+  POINTS,
   KINDS
 } kind;
 
@@ -28,6 +29,7 @@ static struct {
   sph_integrator *it;
   sph_ghosts *ghosts;
   sph_hold *hold;
+  sph_stress_points *points;
   sph_wall wall;
   sph_operands a;
   sph_material_block block;
@@ -124,13 +126,15 @@ static void open_all(void) {
   g.rate = (sph_rate){SPH_FIELD_V, g.out};
   g.ghosts = make_ghosts(ctx);
   check_ok(sph_hold_create(ctx, &g.hold));
+  check_ok(sph_stress_points_create(ctx, g.s.kernel, g.s.list, NULL, &g.points));
   void *all[KINDS] = {ctx,   g.s.set, g.s.kernel, g.s.list, g.material,
-                      g.rhs, g.it,    g.ghosts,   g.hold};
+                      g.rhs, g.it,    g.ghosts,   g.hold,   g.points};
   memcpy(g.handle, all, sizeof all);
 }
 
 static void close_all(void) {
   sph_context *ctx = g.s.ctx;
+  sph_stress_points_destroy(g.points);
   sph_hold_destroy(g.hold);
   sph_ghosts_destroy(g.ghosts);
   sph_integrator_destroy(g.it);
@@ -251,7 +255,19 @@ static void close_all(void) {
   X(hold_traction, HOLD, sph_hold_traction(h, 1, NULL, 0, g.in, NULL, NULL, NULL))         \
   X(hold_clear, HOLD, sph_hold_clear(h))                                                   \
   X(hold_finish, HOLD, sph_hold_finish(h, 0.0, SET, NULL, 0))                              \
-  X(hold_finish_set, PARTICLES, sph_hold_finish(g.hold, 0.0, h, NULL, 0))
+  X(hold_finish_set, PARTICLES, sph_hold_finish(g.hold, 0.0, h, NULL, 0))                  \
+  X(new_points, CONTEXT, sph_stress_points_create(h, W, LIST, NULL, MADE))                 \
+  X(new_points_w, KERNEL, sph_stress_points_create(CTX, h, LIST, NULL, MADE))              \
+  X(new_points_list, NEIGHBORS, sph_stress_points_create(CTX, W, h, NULL, MADE))           \
+  X(points_material, POINTS, sph_stress_points_set_material(h, 0, g.material))             \
+  X(points_place, POINTS, sph_stress_points_place(h, SET))                                 \
+  X(points_place_set, PARTICLES, sph_stress_points_place(g.points, h))                     \
+  X(points_average, POINTS, sph_stress_points_average(h, SET))                             \
+  X(points_average_set, PARTICLES, sph_stress_points_average(g.points, h))                 \
+  X(points_rates, POINTS, sph_stress_points_rates(h, 0.0, SET, NULL, 0))                   \
+  X(points_rates_set, PARTICLES, sph_stress_points_rates(g.points, 0.0, h, NULL, 0))       \
+  X(points_bind, POINTS, sph_stress_points_bind(h, g.it))                                  \
+  X(points_bind_it, INTEGRATOR, sph_stress_points_bind(g.points, h))
 
 #define DEFINE_CALL(name, k, call) \
   static sph_status call_##name(void *h) { return call; }
@@ -386,7 +402,8 @@ static void test_handles(void **state) {
   X(sph_ghosts_get_wall(g.ghosts, 0, NULL))                         \
   X(sph_hold_create(CTX, NULL))                                     \
   X(sph_hold_traction(g.hold, 1, NULL, 0, NULL, NULL, NULL, NULL))  \
-  X(sph_hold_finish(g.hold, 0.0, SET, NULL, 1))
+  X(sph_hold_finish(g.hold, 0.0, SET, NULL, 1))                     \
+  X(sph_stress_points_create(CTX, W, LIST, NULL, NULL))
 
 static void test_pointers(void **state) {
   (void)state;
@@ -470,6 +487,11 @@ static void check_getters(void *h, kind not_this) {
     assert_null(sph_ghosts_walls(h));
     check_pair_functions(h);
   }
+  if (not_this != POINTS) {
+    assert_int_equal(sph_stress_points_count(h), 0);
+    assert_null(sph_stress_points_offsets(h));
+    assert_null(sph_stress_points_stresses(h));
+  }
 }
 
 /* What cannot answer a status answers its nothing; destroying another kind leaves it alone. */
@@ -483,6 +505,7 @@ static void check_destroyers(void *h, kind not_this) {
   if (not_this != INTEGRATOR) sph_integrator_destroy(h);
   if (not_this != GHOSTS) sph_ghosts_destroy(h);
   if (not_this != HOLD) sph_hold_destroy(h);
+  if (not_this != POINTS) sph_stress_points_destroy(h);
 }
 
 static void test_getters(void **state) {
@@ -530,6 +553,7 @@ static void test_inits(void **state) {
   TRY(sph_step_info_init_sized)
   TRY(sph_wall_init_sized)
   TRY(sph_ghosts_options_init_sized)
+  TRY(sph_stress_points_options_init_sized)
 #undef TRY
   for (int k = 0; k < 4; k++) assert_int_equal(small.bytes[k], 0xaa);
 }
