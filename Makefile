@@ -20,8 +20,8 @@ BUILD ?= build
 JOBS ?= 2
 V ?= 0
 WERROR ?= 0
-# Programs that live in examples/ and understand the argument `validate`.
-EXAMPLE_CASES ?= elastic_bar smooth_wave tensile_instability
+# Programs of examples/ understand the argument `validate`, but for those that only show something.
+EXAMPLE_CASES ?= $(filter-out first_steps,$(basename $(notdir $(wildcard examples/*.c))))
 
 # The C++ compiler beside the C one (gcc-12: g++-12), else any.
 ifeq ($(origin CXX),default)
