@@ -9,6 +9,7 @@
 #include <sph/elastic.h>
 #include <sph/eos.h>
 #include <sph/integrator.h>
+#include <sph/io.h>
 #include <sph/kernel.h>
 #include <sph/layout.h>
 #include <sph/material.h>

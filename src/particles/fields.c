@@ -52,6 +52,14 @@ sphi_field *sphi_set_field(const sph_particles *set, int32_t field) {
   return slot < 0 ? NULL : (sphi_field *)&set->fields[slot];
 }
 
+sphi_shape sphi_field_shape(const sph_particles *set, int32_t field) {
+  int32_t slot = slot_of(set, field);
+  if (slot < 0 || slot >= SPHI_BUILTIN_FIELDS || builtins[slot].components > 0)
+    return SPHI_SHAPE_PLAIN;
+  if (builtins[slot].components == VECTOR) return SPHI_SHAPE_VECTOR;
+  return builtins[slot].components == TENSOR ? SPHI_SHAPE_SYMMETRIC : SPHI_SHAPE_MATRIX;
+}
+
 size_t sphi_field_bytes(const sphi_field *f, int64_t particles) {
   return sphi_mul((size_t)particles, (size_t)f->components * sizeof(double));
 }

@@ -115,3 +115,5 @@ const int64_t *sph_particles_ids(const sph_particles *set) {
 sph_context *sphi_particles_context(const sph_particles *set) { return set->object.ctx; }
 
 const int32_t *sphi_particles_phases(const sph_particles *set) { return set->phases; }
+
+const int32_t *sphi_particles_roles(const sph_particles *set) { return set->roles; }
