@@ -2,9 +2,11 @@
 #ifndef SPH_SPH_H
 #define SPH_SPH_H
 
+#include <sph/adapt.h>
 #include <sph/base.h>
 #include <sph/context.h>
 #include <sph/correction.h>
+#include <sph/elastodynamics.h>
 #include <sph/integrator.h>
 #include <sph/kernel.h>
 #include <sph/material.h>
