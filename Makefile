@@ -20,7 +20,7 @@ JOBS ?= 2
 V ?= 0
 WERROR ?= 0
 # Programs that live in examples/ and understand the argument `validate`.
-EXAMPLE_CASES ?= elastic_bar smooth_wave
+EXAMPLE_CASES ?= elastic_bar smooth_wave oscillating_beam
 
 # The C++ compiler beside the C one (gcc-12: g++-12), else any.
 ifeq ($(origin CXX),default)

@@ -91,8 +91,11 @@ typedef struct sph_elastodynamics_options {
   double skin;               /* VERLET: in units of the smallest spacing, >= 0; default 0.3 */
   int32_t periodic[3];       /* as in sph_neighbors_options, with the box below */
   double box_lo[3], box_hi[3];
-  int32_t audit; /* nonzero: integrate the ledger's powers with the state. About three
-                  * times the cost. Not with LEAPFROG. Default 0 */
+  int32_t position_field; /* SPH_FIELD_X (default), or SPH_FIELD_X0: all pairs and gradients of
+                           * the configuration at the start, the total Lagrangian form that He
+                           * prints in (3.27): for small strains and rotations only */
+  int32_t audit;          /* nonzero: integrate the ledger's powers with the state. About three
+                           * times the cost. Not with LEAPFROG. Default 0 */
 } sph_elastodynamics_options;
 
 /* Fill *options with the defaults. Since 0.1. */

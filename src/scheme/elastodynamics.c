@@ -235,8 +235,11 @@ int32_t sphi_scheme_evaluate(void *user, double t, sph_particles *set, const sph
 
 static sph_status make_parts(sph_elastodynamics *solid) {
   sph_context *ctx = solid->base.ctx;
+  sph_rhs_options options;
+  sph_rhs_options_init(&options);
+  options.position_field = solid->options.position_field;
   sph_status s = sph_kernel_create(ctx, solid->options.kernel, solid->options.dim, &solid->kernel);
-  if (!s) s = sph_rhs_create(ctx, solid->kernel, NULL, &solid->rhs);
+  if (!s) s = sph_rhs_create(ctx, solid->kernel, &options, &solid->rhs);
   if (!s) s = add_terms(solid);
   if (!s) s = sph_rhs_set_finish(solid->rhs, finish, solid);
   return s || !solid->options.audit ? s : sphi_ledger_create(solid);

@@ -49,9 +49,12 @@ static double stress_power(int32_t dim, const double *s, const double *L) {
 sph_status sphi_ledger_create(sph_elastodynamics *solid) {
   const sph_elastodynamics_options *o = &solid->options;
   const int wanted[2] = {o->alpha > 0.0 || o->beta > 0.0, o->artificial_stress > 0.0};
+  sph_rhs_options options;
   sph_status s = SPH_OK;
+  sph_rhs_options_init(&options);
+  options.position_field = o->position_field;
   for (int k = 0; !s && k < 2; ++k)
-    if (wanted[k]) s = sph_rhs_create(solid->base.ctx, solid->kernel, NULL, &solid->damping[k]);
+    if (wanted[k]) s = sph_rhs_create(solid->base.ctx, solid->kernel, &options, &solid->damping[k]);
   if (!s && wanted[0]) s = sphi_scheme_viscosity(solid, solid->damping[0]);
   if (!s && wanted[1]) s = sphi_scheme_artificial_stress(solid, solid->damping[1]);
   return s;
@@ -63,6 +66,7 @@ static sph_status strain_power(sph_elastodynamics *solid, double *matrix, double
   sph_operands a;
   sph_operands_init(&a);
   sph_status s = sph_operands_from_set(solid->set, &a);
+  a.x = sph_particles_field_const(solid->set, solid->options.position_field);
   if (!s && solid->options.corrected) {
     s = sph_gradient_matrix(solid->list, solid->kernel, &a, matrix, NULL, NULL);
     a.gradient_matrix = matrix;
