@@ -2,11 +2,13 @@
 #ifndef SPH_SPH_H
 #define SPH_SPH_H
 
+#include <sph/adapt.h>
 #include <sph/base.h>
 #include <sph/boundary.h>
 #include <sph/context.h>
 #include <sph/correction.h>
 #include <sph/elastic.h>
+#include <sph/elastodynamics.h>
 #include <sph/eos.h>
 #include <sph/integrator.h>
 #include <sph/io.h>

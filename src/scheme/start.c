@@ -1,0 +1,166 @@
+/* The start of a run: fields that follow from options and materials, list, integrator. */
+#include "scheme_impl.h"
+
+#include <math.h>
+#include <string.h>
+
+static int positive(double x) { return isfinite(x) && x > 0.0; }
+
+/* ---- what depends on the spacing --------------------------------------------------------- */
+
+static sph_status make_list(sph_elastodynamics *solid, double spacing) {
+  const sph_elastodynamics_options *o = &solid->options;
+  sph_neighbors_options list;
+  sph_neighbors_options_init(&list);
+  list.method = o->neighbors;
+  list.h_rule = o->h_rule;
+  list.support = sph_kernel_support(solid->kernel);
+  list.skin = o->skin * spacing;
+  memcpy(list.periodic, o->periodic, sizeof list.periodic);
+  memcpy(list.box_lo, o->box_lo, sizeof list.box_lo);
+  memcpy(list.box_hi, o->box_hi, sizeof list.box_hi);
+  return sph_neighbors_create(solid->base.ctx, &list, &solid->list);
+}
+
+static sph_status bind(sph_elastodynamics *solid) {
+  sph_integrator *it = solid->integrator;
+  sph_status s = sph_integrator_bind_field(it, SPH_FIELD_X);
+  if (!s) s = sph_integrator_bind_field(it, SPH_FIELD_V);
+  if (!s) s = sph_integrator_bind_field(it, SPH_FIELD_SIGMA);
+  int32_t items = 3;
+  if (!s && solid->options.density == SPH_DENSITY_CONTINUITY) {
+    s = sph_integrator_bind_field(it, SPH_FIELD_RHO);
+    ++items;
+  }
+  if (!s && solid->options.h_law == SPH_H_LAW_RATE) {
+    s = sph_integrator_bind_field(it, SPH_FIELD_H);
+    ++items;
+  }
+  solid->ledger_item = -1 - items;
+  if (!s && solid->options.audit)
+    s = sph_integrator_bind_array(it, solid->integral, SPHI_INTEGRALS);
+  return s ? s : sph_integrator_set_function(it, sphi_scheme_evaluate, solid);
+}
+
+static sph_status make_integrator(sph_elastodynamics *solid, double spacing, double speed) {
+  const sph_elastodynamics_options *o = &solid->options;
+  sph_integrator_options integrator;
+  sph_integrator_options_init(&integrator);
+  integrator.method = o->integrator;
+  integrator.stage_rule = o->stage_rule;
+  integrator.stages = o->stages;
+  integrator.wave_speed = speed;
+  integrator.spacing = spacing;
+  sph_status s = sph_integrator_create(solid->base.ctx, &integrator, &solid->integrator);
+  return s ? s : bind(solid);
+}
+
+void sphi_scheme_drop_parts(sph_elastodynamics *solid) {
+  sph_integrator_destroy(solid->integrator);
+  sph_neighbors_destroy(solid->list);
+  solid->integrator = NULL;
+  solid->list = NULL;
+  solid->started = 0;
+}
+
+sph_status sphi_scheme_make_parts(sph_elastodynamics *solid, double spacing, double speed) {
+  sphi_scheme_drop_parts(solid);
+  sph_status s = make_list(solid, spacing);
+  return s ? s : make_integrator(solid, spacing, speed);
+}
+
+/* ---- start ------------------------------------------------------------------------------- */
+
+static sph_status fill_spacing(sph_elastodynamics *solid) {
+  double *spacing;
+  sph_status s = sph_particles_field(solid->set, SPH_FIELD_SPACING, &spacing);
+  if (s || solid->options.spacing == 0.0) return s;
+  for (int64_t i = 0; i < sph_particles_count(solid->set); ++i) spacing[i] = solid->options.spacing;
+  return sph_particles_touch(solid->set, SPH_FIELD_SPACING);
+}
+
+static sph_status check_positive(sph_elastodynamics *solid, int32_t field, const char *name) {
+  double *f;
+  sph_status s = sph_particles_field(solid->set, field, &f);
+  for (int64_t i = 0; !s && i < sph_particles_real_count(solid->set); ++i)
+    if (!positive(f[i]))
+      s = sphi_fail(solid->base.ctx, SPH_ERR_NUMERIC, "elastodynamics: %s of particle %lld is %g",
+                    name, (long long)i, f[i]);
+  return s;
+}
+
+/* C of every particle, and the largest. */
+static sph_status fill_speed(sph_elastodynamics *solid, double *largest) {
+  double *c;
+  const int32_t *phase = sph_particles_phases(solid->set);
+  sph_status s = sph_particles_field(solid->set, SPH_FIELD_C, &c);
+  *largest = 0.0;
+  for (int64_t i = 0; !s && i < sph_particles_real_count(solid->set); ++i) {
+    if (phase[i] < 0 || phase[i] >= SPHI_MATERIALS || solid->speed[phase[i]] == 0.0)
+      return sphi_fail(solid->base.ctx, SPH_ERR_STATE,
+                       "elastodynamics: phase %d of particle %lld has no material", (int)phase[i],
+                       (long long)i);
+    c[i] = solid->speed[phase[i]];
+    *largest = fmax(*largest, c[i]);
+  }
+  return s;
+}
+
+static sph_status copy_field(sph_particles *set, int32_t from, int32_t to) {
+  double *a, *b;
+  sph_status s = sph_particles_field(set, from, &a);
+  if (!s) s = sph_particles_field(set, to, &b);
+  if (s) return s;
+  const size_t components = (size_t)sph_particles_components(set, from);
+  memcpy(b, a, (size_t)sph_particles_count(set) * components * sizeof *a);
+  return sph_particles_touch(set, to);
+}
+
+/* Keep a field as reference under a name of the set's, from an earlier start if there was one. */
+static sph_status keep(sph_particles *set, int32_t from, const char *name, int32_t *to) {
+  sph_status s = SPH_OK;
+  *to = sph_particles_find_field(set, name);
+  if (*to < 0) s = sph_particles_add_field(set, name, 1, to);
+  return s ? s : copy_field(set, from, *to);
+}
+
+static double smallest(const sph_elastodynamics *solid, int32_t field) {
+  const double *f = sph_particles_field_const(solid->set, field);
+  double least = INFINITY;
+  for (int64_t i = 0; i < sph_particles_real_count(solid->set); ++i) least = fmin(least, f[i]);
+  return least;
+}
+
+static sph_status fill_fields(sph_elastodynamics *solid, double *speed) {
+  double *ignored;
+  sph_particles *set = solid->set;
+  sph_status s = fill_spacing(solid);
+  if (!s) s = check_positive(solid, SPH_FIELD_SPACING, "spacing");
+  if (!s) s = check_positive(solid, SPH_FIELD_M, "mass");
+  if (!s) s = check_positive(solid, SPH_FIELD_RHO, "density");
+  if (!s) s = sph_particles_field(set, SPH_FIELD_V, &ignored);
+  if (!s) s = sph_particles_field(set, SPH_FIELD_SIGMA, &ignored);
+  if (!s) s = fill_speed(solid, speed);
+  if (!s) s = sphi_scheme_h_from_spacing(solid);
+  if (!s) s = copy_field(set, SPH_FIELD_X, SPH_FIELD_X0);
+  if (s || solid->options.h_law != SPH_H_LAW_DENSITY) return s;
+  s = keep(set, SPH_FIELD_H, "h_reference", &solid->h0_field);
+  return s ? s : keep(set, SPH_FIELD_RHO, "rho_reference", &solid->rho0_field);
+}
+
+sph_status sph_elastodynamics_start(sph_elastodynamics *solid, double t) {
+  double speed;
+  sph_status s = sphi_scheme_check(solid, 0);
+  if (s) return s;
+  if (!isfinite(t)) return sphi_fail(solid->base.ctx, SPH_ERR_ARG, "elastodynamics: time %g", t);
+  if (sph_particles_real_count(solid->set) == 0)
+    return sphi_fail(solid->base.ctx, SPH_ERR_STATE, "elastodynamics: the set is empty");
+  solid->started = 0;
+  s = fill_fields(solid, &speed);
+  if (!s) s = sphi_scheme_make_parts(solid, smallest(solid, SPH_FIELD_SPACING), speed);
+  if (s) return s;
+  solid->time = t;
+  solid->started = 1;
+  sphi_ledger_start(solid);
+  return SPH_OK;
+}
