@@ -10,8 +10,7 @@
 enum {
   SPHI_MAGIC_GHOSTS = 0x53504841,
   SPHI_MAGIC_HOLD = 0x53504842,
-  SPHI_MAX_WALLS = 32,
-  SPHI_FIELD_IDS = 128 /* built-in ones below 64, the host's above */
+  SPHI_MAX_WALLS = 32
 };
 
 typedef struct sphi_plane {
