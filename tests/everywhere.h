@@ -301,6 +301,21 @@ static sph_status ew_pressure(everywhere *w) {
   sph_status s = sph_material_pressure(w->hooke, &b, w->out);
   return s == SPH_ERR_UNSUPPORTED ? SPH_OK : s; /* Hooke has none, and says so */
 }
+static sph_status ew_shear_speed(everywhere *w) {
+  sph_material_block b = ew_block(w);
+  return sph_material_shear_speed(w->hooke, &b, w->out);
+}
+static sph_status ew_small_strain(everywhere *w) {
+  sph_material_block b = ew_block(w);
+  b.strain = w->a.sigma;
+  return sph_material_small_strain_stress(w->hooke, &b, w->out);
+}
+static sph_status ew_first_piola(everywhere *w) {
+  return sph_material_first_piola(w->hooke, w->dim, w->n, w->more, w->out, NULL);
+}
+static sph_status ew_cauchy(everywhere *w) {
+  return sph_material_cauchy_stress(w->hooke, w->dim, w->n, w->more, w->out);
+}
 static sph_status ew_bulk(everywhere *w) {
   sph_bulk_viscosity o;
   sph_bulk_viscosity_init(&o);
@@ -423,6 +438,10 @@ static const ew_entry ew_entries[] = {
     {"sph_material_stress_rate", ew_stress_rate, 0, 0},
     {"sph_material_pressure", ew_pressure, 0, 0},
     {"sph_material_sound_speed", ew_sound_speed, 0, 0},
+    {"sph_material_shear_speed", ew_shear_speed, 0, 0},
+    {"sph_material_small_strain_stress", ew_small_strain, 0, 0},
+    {"sph_material_first_piola", ew_first_piola, 0, 0},
+    {"sph_material_cauchy_stress", ew_cauchy, 0, 0},
     {"sph_operands_from_set", ew_from_set, 0, 0},
     {"sph_density_summation", ew_density_summation, EW_PAIRS, 1},
     {"sph_continuity", ew_continuity, EW_PAIRS, 1},

@@ -90,7 +90,7 @@ static int neo_hookean_across(const hyper *law, double l, double *y) {
   for (int step = 0; step < STEPS; step++) {
     double stretch2 = exp(2 * at), value = mu * expm1(2 * at) + lambda * (k * at + l);
     double slope = 2 * mu * stretch2 + k * lambda, change = value / slope;
-    if (!(slope > 0)) return NO_THICKNESS;
+    if (!(slope > 0) || !isfinite(change)) return NO_THICKNESS;
     *y = at - change;
     /* The error left is the square of this; below, rounding decides the sign. */
     if (!(change > 1e-9 * fabs(*y))) return FINE;

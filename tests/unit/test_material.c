@@ -95,7 +95,7 @@ static void oracle(int32_t reduction, double young, double nu, int jaumann, cons
   tensor full_l = {{0}}, full_s = {{0}}, d, r;
   for (int a = 0; a < dim; a++)
     for (int b = 0; b < dim; b++) full_l[a][b] = l[a * dim + b];
-  for (int c = 0; c < comps; c++) {
+  for (int c = 0; c < comps && jaumann; c++) {
     int a = row_of[packed[dim][c]], b = column_of[packed[dim][c]];
     full_s[a][b] = full_s[b][a] = s[c];
   }
@@ -131,6 +131,45 @@ static void test_full_tensor_law(void **state) {
     for (int k = 0; k < 5; k++)
       for (int jaumann = 0; jaumann < 2; jaumann++)
         check_against_oracle(ctx, reduction, nus[k], jaumann);
+  sph_context_destroy(ctx);
+}
+
+/* The total form is the same linear law of the strain as the rate form is of the strain rate; with
+ * F, of the strain (F + F^T)/2 - I, and half its work is the energy. */
+static void test_total_form(void **state) {
+  (void)state;
+  sph_context *ctx = make_context();
+  const double nus[] = {0, 0.3, -0.4};
+  for (int32_t reduction = SPH_UNIAXIAL_STRESS; reduction <= SPH_SOLID; reduction++)
+    for (int k = 0; k < 3; k++) {
+      int32_t dim = reduction_dim(reduction), comps = dim * (dim + 1) / 2;
+      sph_material *material = make_hooke(ctx, reduction, 3.7, nus[k], 1);
+      double l[9], strain[6], got[6], want[6], f[9], p[9], cauchy[6], energy, work = 0;
+      for (int c = 0; c < 9; c++) l[c] = random_signed();
+      oracle(reduction, 3.7, nus[k], 0, l, NULL, want);
+      for (int c = 0; c < comps; c++) {
+        int a = row_of[packed[dim][c]], b = column_of[packed[dim][c]];
+        strain[c] = 0.5 * (l[a * dim + b] + l[b * dim + a]);
+        work += 0.5 * (a == b ? 1 : 2) * strain[c] * want[c];
+      }
+      sph_material_block b = {.size = sizeof b, .dim = dim, .n = 1, .strain = strain};
+      check_ok(sph_material_small_strain_stress(material, &b, got));
+      for (int c = 0; c < comps; c++) check_close(got[c], want[c], 1e-13);
+      for (int c = 0; c < dim * dim; c++) f[c] = l[c] + (c % (dim + 1) == 0);
+      check_ok(sph_material_cauchy_stress(material, dim, 1, f, cauchy));
+      check_ok(sph_material_first_piola(material, dim, 1, f, p, &energy));
+      check_close(energy, work, 1e-13);
+      for (int c = 0; c < comps; c++) {
+        int a = row_of[packed[dim][c]], e = column_of[packed[dim][c]];
+        check_close(cauchy[c], want[c], 2e-13);
+        assert_true(p[a * dim + e] == cauchy[c] && p[e * dim + a] == cauchy[c]);
+      }
+      check_ok(sph_material_small_strain_stress(material, &b, strain)); /* over the strain */
+      assert_memory_equal(strain, got, sizeof *got * (size_t)comps);
+      b.strain = NULL;
+      check_status(sph_material_small_strain_stress(material, &b, got), SPH_ERR_ARG);
+      sph_material_destroy(material);
+    }
   sph_context_destroy(ctx);
 }
 
@@ -447,6 +486,7 @@ static void test_quiet_calls(void **state) {
 
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_full_tensor_law),
+    cmocka_unit_test(test_total_form),
     cmocka_unit_test(test_plane_reductions),
     cmocka_unit_test(test_rigid_rotation),
     cmocka_unit_test(test_principal_stresses),
