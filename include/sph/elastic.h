@@ -17,8 +17,9 @@ extern "C" {
  *   PLANE_STRESS     2-D  xx' = E/(1-nu^2) (D_xx + nu D_yy), xy' = 2G D_xy.
  *                         zz stress zero: D_zz = -nu/(1-nu) (D_xx + D_yy).
  *   PLANE_STRAIN     2-D  xx' = (lambda + 2G) D_xx + lambda D_yy, xy' = 2G D_xy. D_zz = 0.
- *                         The stress zz is not zero, but not stored: nothing in the plane
- *                         depends on it, and zz = nu (xx + yy) for small strains.
+ *                         The stress zz is not zero, but not stored: nothing elastic in the
+ *                         plane depends on it, and zz = nu (xx + yy) for small strains.
+ *                         Plasticity does, and keeps it (plasticity.h).
  *   SOLID            3-D  all of sigma' = 2G (D - tr(D) I/3) + K tr(D) I.
  *
  * All are that last formula with the D_zz given (and D_yy in 1-D). The trace must include

@@ -209,13 +209,16 @@ SPH_API sph_status sph_mie_gruneisen_constants(int32_t material, sph_mie_gruneis
  *   TILLOTSON_IRON        7800   0.50  1.50  128   105     5    5    9.5   2.40   8.67
  *   TILLOTSON_BASALT      2700   0.50  1.50  26.7  26.7    5    5    487   4.72   18.2
  *   TILLOTSON_ICE          917   0.30  0.10  9.47  9.47   10    5    10    0.773  3.04
+ *   TILLOTSON_GRANITE     2680   0.50  1.30  18.0  18.0    5    5    16    3.50   18.0
  *
- * Aluminium and iron: Melosh 1989, table AII.3. Basalt and ice: Benz, Asphaug 1999, table II. */
+ * Aluminium, iron and granite: Melosh 1989, table AII.3. Basalt and ice: Benz, Asphaug 1999, table
+ * II. */
 enum {
   SPH_TILLOTSON_ALUMINIUM = 1,
   SPH_TILLOTSON_IRON = 2,
   SPH_TILLOTSON_BASALT = 3,
-  SPH_TILLOTSON_ICE = 4
+  SPH_TILLOTSON_ICE = 4,
+  SPH_TILLOTSON_GRANITE = 5
 };
 
 /* As sph_mie_gruneisen_constants(). Since 0.1. */

@@ -92,9 +92,9 @@ SPH_API void sph_strength_options_init_sized(sph_strength_options *options, size
  *
  * In fewer dimensions this is plane and uniaxial strain: S has trace zero, so the components across
  * are known, S_zz = -(S_xx + S_yy) in 2-D, S_yy = S_zz = -S_xx/2 in 1-D, and enter q; `across` of
- * the return is unread. trace_by_dim is the form that the source
- * computes with in 2-D: the trace in the plane vanishes and S_zz = 0 (in 1-D S would vanish: not
- * for bars), and the sound speed has 2G(1 - 1/dim)/rho instead of 4G/(3 rho).
+ * the return is unread. trace_by_dim is the form that the source computes with in 2-D: the trace
+ * in the plane vanishes, S_zz = 0, and the sound speed has 2G(1 - 1/dim)/rho instead of
+ * 4G/(3 rho). In 1-D there would be no S at all.
  *
  * limit_rate: where q >= Y and the rate points outward, its outward part is taken away, S' -= 2G
  * (S:D')/(S:S) S with D' the deviator of D (Prandtl, Reuss). For integrators with several

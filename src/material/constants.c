@@ -20,7 +20,9 @@ static const sph_tillotson_options tillotson[] = {
                                  0},
     [SPH_TILLOTSON_IRON] = {0, 7800, 0.5, 1.5, 128e9, 105e9, 5, 5, 9.5e6, 2.40e6, 8.67e6, 0, 0},
     [SPH_TILLOTSON_BASALT] = {0, 2700, 0.5, 1.5, 26.7e9, 26.7e9, 5, 5, 487e6, 4.72e6, 18.2e6, 0, 0},
-    [SPH_TILLOTSON_ICE] = {0, 917, 0.3, 0.1, 9.47e9, 9.47e9, 10, 5, 10e6, 0.773e6, 3.04e6, 0, 0}};
+    [SPH_TILLOTSON_ICE] = {0, 917, 0.3, 0.1, 9.47e9, 9.47e9, 10, 5, 10e6, 0.773e6, 3.04e6, 0, 0},
+    [SPH_TILLOTSON_GRANITE] = {0, 2680, 0.5, 1.3, 18.0e9, 18.0e9, 5, 5, 16e6, 3.50e6, 18.0e6, 0,
+                               0}};
 
 sph_status sph_mie_gruneisen_constants(int32_t material, sph_mie_gruneisen_options *eos,
                                        sph_strength_options *strength) {
@@ -43,7 +45,7 @@ sph_status sph_mie_gruneisen_constants(int32_t material, sph_mie_gruneisen_optio
 }
 
 sph_status sph_tillotson_constants(int32_t material, sph_tillotson_options *eos) {
-  if (material < SPH_TILLOTSON_ALUMINIUM || material > SPH_TILLOTSON_ICE) return SPH_ERR_ARG;
+  if (material < SPH_TILLOTSON_ALUMINIUM || material > SPH_TILLOTSON_GRANITE) return SPH_ERR_ARG;
   if (eos == NULL || eos->size < offsetof(sph_tillotson_options, minimum_pressure))
     return SPH_ERR_ARG;
   const sph_tillotson_options *t = &tillotson[material];

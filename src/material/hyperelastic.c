@@ -57,13 +57,13 @@ static void cofactors(int32_t d, const double *f, double *c) {
   }
 }
 
-/* det(I + H) - 1: the invariants of H, without the 1 */
-static double det_minus_one(int32_t d, const double *h) {
-  if (d == 1) return h[0];
-  if (d == 2) return h[0] + h[3] + (h[0] * h[3] - h[1] * h[2]);
+/* det(I + H) - 1 - tr H: the other invariants of H */
+static double det_minus_trace(int32_t d, const double *h) {
   double c[9];
+  if (d == 1) return 0;
+  if (d == 2) return h[0] * h[3] - h[1] * h[2];
   cofactors(3, h, c);
-  return trace(3, h) + trace(3, c) + (h[0] * c[0] + h[1] * c[1] + h[2] * c[2]);
+  return trace(3, c) + (h[0] * c[0] + h[1] * c[1] + h[2] * c[2]);
 }
 
 /* G = (H + H^T + H^T H)/2 */
@@ -110,7 +110,7 @@ static int venant_across(const hyper *law, const double *h, double *y) {
 
 /* ln det F: near 1 from the invariants of H, where det F has lost them */
 static double log_det_of(int32_t d, const double *h, double det) {
-  double det1 = det_minus_one(d, h);
+  double det1 = trace(d, h) + det_minus_trace(d, h);
   return fabs(det1) < 0.5 ? log1p(det1) : log(det);
 }
 
@@ -149,21 +149,34 @@ static double venant(const hyper *law, int32_t d, const double *f, double *p) {
   return 0.5 * spherical * tr + law->mu * square;
 }
 
+/* x - ln(1 + x), also where the two nearly agree: with y = x/(2 + x), ln(1 + x) = 2 artanh y. */
+static double log_rest(double x, double log_1px) {
+  if (fabs(x) > 0.1) return x - log_1px;
+  const double y = x / (2 + x), y2 = y * y;
+  const double odd = y2 * y * (1.0 / 3 + y2 * (0.2 + y2 * (1.0 / 7 + y2 * (1.0 / 9 + y2 / 11))));
+  return 2 * (y2 / (1 - y) - odd);
+}
+
+/* Of the neo-Hookean law, (F:F - 3)/2 - ln J: every part is of second order in the strains. */
+static double shape_energy(const hyper *law, int32_t d, const double *h, const stretch *s) {
+  const double others = det_minus_trace(d, h), across = expm1(2 * s->across);
+  double square = 0;
+  for (int32_t k = 0; k < d * d; k++) square += h[k] * h[k];
+  return 0.5 * square - others + log_rest(trace(d, h) + others, s->log_det) +
+         0.5 * law->free * log_rest(across, 2 * s->across);
+}
+
 /* P = mu (F - F^-T) + lambda ln J F^-T; returns psi */
 static double neo_hookean(const hyper *law, int32_t d, const double *f, double *p) {
-  double h[9] = {0}, c[9], square = 0;
+  double h[9] = {0}, c[9];
   stretch s;
   (void)stretch_of(law, f, &s);
   minus_identity(d, f, h);
   cofactors(d, f, c);
   const double mu = law->mu, log_j = s.log_det + law->free * s.across;
-  const double inverse = (law->lambda * log_j - mu) / s.det, tr = trace(d, h);
-  for (int32_t k = 0; k < d * d; k++) {
-    square += h[k] * h[k];
-    p[k] = mu * f[k] + inverse * c[k];
-  }
-  double across = law->free * (0.5 * expm1(2 * s.across) - s.across);
-  return mu * (0.5 * square + (tr - s.log_det) + across) + 0.5 * law->lambda * log_j * log_j;
+  const double inverse = (law->lambda * log_j - mu) / s.det;
+  for (int32_t k = 0; k < d * d; k++) p[k] = mu * f[k] + inverse * c[k];
+  return mu * shape_energy(law, d, h, &s) + 0.5 * law->lambda * log_j * log_j;
 }
 
 static double first_piola(const hyper *law, int32_t d, const double *f, double *p) {

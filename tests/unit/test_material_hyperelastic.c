@@ -255,10 +255,11 @@ static void test_nothing_at_rest(void **state) {
 static void test_hooke_is_the_limit(void **state) {
   (void)state;
   sph_context *ctx = make_context();
-  const double size = 1e-6, nu = 0.3;
+  const double nu = 0.3;
   for (int32_t law = SPH_ST_VENANT_KIRCHHOFF; law <= SPH_NEO_HOOKEAN; law++)
-    for (int32_t reduction = SPH_UNIAXIAL_STRESS; reduction <= SPH_SOLID; reduction++) {
-      int32_t d = dim_of(reduction);
+    for (int32_t k = 0; k < 15; k++) {
+      const double size = k < 5 ? 1e-3 : k < 10 ? 1e-6 : 1e-9;
+      int32_t reduction = SPH_UNIAXIAL_STRESS + k % 5, d = dim_of(reduction);
       sph_material *m = make(ctx, law, reduction, nu), *linear = NULL;
       sph_hooke_options h;
       double f[9], p[9], s[6], want[9], cauchy[6], psi, half_work;
@@ -271,11 +272,12 @@ static void test_hooke_is_the_limit(void **state) {
       random_gradient(d, size, f);
       check_ok(sph_material_first_piola(m, d, 1, f, p, &psi));
       check_ok(sph_material_first_piola(linear, d, 1, f, want, &half_work));
-      for (int k = 0; k < d * d; k++) check_close(p[k], want[k], 40 * size * size);
+      for (int c = 0; c < d * d; c++) check_close(p[c], want[c], 40 * size * size + 1e-15);
       check_rel(psi, half_work, 40 * size);
       check_ok(sph_material_cauchy_stress(m, d, 1, f, s));
       check_ok(sph_material_cauchy_stress(linear, d, 1, f, cauchy));
-      for (int k = 0; k < d * (d + 1) / 2; k++) check_close(s[k], cauchy[k], 40 * size * size);
+      for (int c = 0; c < d * (d + 1) / 2; c++)
+        check_close(s[c], cauchy[c], 40 * size * size + 1e-15);
       sph_material_destroy(linear);
       sph_material_destroy(m);
     }
