@@ -159,7 +159,8 @@ SPH_API void sph_tillotson_options_init_sized(sph_tillotson_options *options, si
  *
  * p is continuous everywhere; its derivatives, and c, jump at e_iv, e_cv and, for u = 0 and e >
  * e_iv, at rho0. Cold matter drawn out to nothing keeps the tension B - A, a property of the law:
- * use minimum_pressure. The floor of c and the cut-off are as for
+ * use minimum_pressure. Partly vaporised states may be unstable, c^2 < 0, before the floor. The
+ * floor of c and the cut-off are as for
  * sph_material_create_mie_gruneisen(). The energy from rho and p is in closed form in p1 and p2, by
  * bisection between; where several energies give p, the lowest of those in the order p1, p2,
  * between. No temperature.

@@ -49,7 +49,7 @@ enum { SPH_ROTATION_EXPONENTIAL = 1, SPH_ROTATION_CAYLEY = 2 };
 
 /* Turn stresses with the material over a time step: sigma <- R sigma R^T.
  *
- * R is orthogonal to rounding, so principal stresses keep their values to about 2e-16 a step,
+ * R is orthogonal to rounding, so principal stresses keep their values to less than 1e-15 a step,
  * however large the step is. The rate form (Jaumann terms in sph_material_stress_rate()) keeps
  * them only as well as its integrator does. Relative change after one full turn in N equal steps:
  * Euler (2 pi)^2 2/N, midpoint and Heun (2 pi)^4 2/N^3, Runge-Kutta of order 4 (2 pi)^6 (4/9)/N^5 -

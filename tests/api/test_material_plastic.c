@@ -1,27 +1,10 @@
 /* Plasticity against numerical return mappings: the plastic multiplier by bisection on full
- * tensors, the reductions by bisection on the strains across; closed solutions of bars; strength on
- * top of an equation of state. */
-#include "../check.h"
+ * tensors, the reductions by bisection on the strains across; closed solutions of bars. */
+#include "../material_help.h"
 #include "../oom.h"
-
-#include <sph/sph.h>
-
-static uint64_t random_state = 9;
-static double random_signed(void) { /* splitmix64, in (-1, 1) */
-  uint64_t z = (random_state += UINT64_C(0x9e3779b97f4a7c15));
-  z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
-  z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
-  z ^= z >> 31;
-  return (double)(z >> 11) * 0x1p-52 - 1;
-}
+#include "../tensor_help.h"
 
 static const double young = 3.0, nu = 0.3, yield = 0.4;
-
-static sph_context *make_context(void) {
-  sph_context *ctx = NULL;
-  check_ok(sph_context_create(NULL, &ctx));
-  return ctx;
-}
 
 static sph_von_mises_options options_of(int32_t reduction, double hardening) {
   sph_von_mises_options o;
@@ -42,30 +25,7 @@ static sph_material *make(sph_context *ctx, int32_t reduction, double hardening)
   return m;
 }
 
-static void refused(sph_context *ctx, sph_status got, sph_status want, const char *words) {
-  check_status(got, want);
-  if (strstr(sph_context_last_error(ctx), words) == NULL)
-    fail_msg("\"%s\" is not in \"%s\"", words, sph_context_last_error(ctx));
-}
-
-static int32_t dim_of(int32_t reduction) {
-  return reduction <= SPH_UNIAXIAL_STRAIN ? 1 : reduction <= SPH_PLANE_STRAIN ? 2 : 3;
-}
-
 /* ---- the oracle, in 3x3 and long double ---- */
-
-typedef long double real;
-typedef real tensor[3][3];
-
-static real equivalent(tensor s) {
-  real mean = (s[0][0] + s[1][1] + s[2][2]) / 3, sum = 0;
-  for (int a = 0; a < 3; a++)
-    for (int b = 0; b < 3; b++) {
-      real d = s[a][b] - (a == b ? mean : 0);
-      sum += d * d;
-    }
-  return sqrtl(1.5L * sum);
-}
 
 /* s <- s - 2G strain (3/2 dev s / q): the stress after plastic flow along its own deviator */
 static void flow(tensor trial, real strain, tensor out) {
@@ -117,17 +77,6 @@ static real oracle(int32_t reduction, tensor trial, real hardening, real before,
       low = mid;
   }
   return plastic;
-}
-
-static const int row[] = {0, 1, 2, 0, 0, 1}, column[] = {0, 1, 2, 1, 2, 2};
-static const int packed[4][6] = {{0}, {0}, {0, 1, 3}, {0, 1, 2, 3, 4, 5}};
-
-static void full(int32_t dim, const double *s, double across, tensor out) {
-  memset(out, 0, sizeof(tensor));
-  for (int k = 0; k < dim * (dim + 1) / 2; k++)
-    out[row[packed[dim][k]]][column[packed[dim][k]]] =
-        out[column[packed[dim][k]]][row[packed[dim][k]]] = s[k];
-  for (int a = dim; a < 3; a++) out[a][a] = across;
 }
 
 static void check_return(sph_context *ctx, int32_t reduction, double hardening) {
@@ -330,192 +279,6 @@ static void test_elastic_part(void **state) {
   sph_context_destroy(ctx);
 }
 
-/* ---- strength ---- */
-
-static int32_t fluid_pressure(void *user, const sph_material_block *b, double *p) {
-  (void)user;
-  for (int64_t i = 0; i < b->n; i++) p[i] = 4 * (b->rho[i] - 1);
-  return 0;
-}
-static int32_t fluid_speed(void *user, const sph_material_block *b, double *c) {
-  (void)user;
-  for (int64_t i = 0; i < b->n; i++) c[i] = 2;
-  return 0;
-}
-static void count_destroy(void *user) { ++*(int *)user; }
-
-static sph_status make_fluid(sph_context *ctx, int *destroyed, sph_material **out) {
-  sph_material_functions f;
-  sph_material_functions_init(&f);
-  f.pressure = fluid_pressure;
-  f.sound_speed = fluid_speed;
-  f.destroy = count_destroy;
-  return sph_material_create(ctx, &f, destroyed, out);
-}
-
-static sph_strength_options strength_options(double y) {
-  sph_strength_options o;
-  sph_strength_options_init(&o);
-  o.shear = 1.5;
-  o.yield = y;
-  return o;
-}
-
-static sph_material *make_strength(sph_context *ctx, const sph_strength_options *o) {
-  static int ignored;
-  sph_material *fluid = NULL, *m = NULL;
-  check_ok(make_fluid(ctx, &ignored, &fluid));
-  check_ok(sph_material_create_strength(ctx, fluid, o, &m));
-  sph_material_destroy(fluid);
-  return m;
-}
-
-/* The figures at sph_material_create_strength(): q = 4.99 and Y = 1.70. */
-static void test_strength_return(void **state) {
-  (void)state;
-  sph_context *ctx = make_context();
-  sph_strength_options o = strength_options(1.70);
-  sph_material *m = make_strength(ctx, &o);
-  for (int32_t dim = 1; dim <= 3; dim++)
-    for (int trial = 0; trial < 20; trial++) {
-      double s[6], old[6], work = 0, strain = 0;
-      tensor t;
-      for (int k = 0; k < 6; k++) s[k] = random_signed();
-      if (dim == 3) s[2] = -s[0] - s[1];
-      full(dim, s, 0, t);
-      if (dim == 1) t[1][1] = t[2][2] = -0.5L * s[0];
-      if (dim == 2) t[2][2] = -(real)s[0] - s[1];
-      double scale = 4.99 / (double)equivalent(t);
-      for (int k = 0; k < 6; k++) old[k] = s[k] *= scale;
-      check_ok(sph_material_plastic_return(m, dim, 1, s, NULL, &strain, &work));
-      for (int k = 0; k < dim * (dim + 1) / 2; k++) check_close(s[k], old[k] * 1.70 / 4.99, 1e-14);
-      check_rel(strain, (4.99 - 1.70) / 4.5, 1e-13);
-      check_rel(work, 1.70 * strain, 1e-13);
-    }
-  check_close(4.99 * pow(1.70 / 4.99, 2), 0.58, 0.005); /* the factor without its root */
-  sph_material_destroy(m);
-  sph_context_destroy(ctx);
-}
-
-static void test_strength_rate(void **state) {
-  (void)state;
-  sph_context *ctx = make_context();
-  for (int by_dim = 0; by_dim < 2; by_dim++)
-    for (int32_t dim = 1; dim <= 3; dim++) {
-      sph_strength_options o = strength_options(INFINITY);
-      o.trace_by_dim = by_dim;
-      sph_material *m = make_strength(ctx, &o);
-      double l[9], s[6] = {0}, rate[6], rho = 1.2, c, shear;
-      real d[3][3] = {{0}}, trace = 0;
-      sph_material_block b;
-      for (int k = 0; k < 9; k++) l[k] = random_signed();
-      for (int k = 0; k < 6; k++) s[k] = random_signed();
-      sph_material_block_init(&b);
-      b.dim = dim;
-      b.n = 1;
-      b.velocity_gradient = l;
-      b.sigma = s;
-      b.rho = &rho;
-      check_ok(sph_material_stress_rate(m, &b, rate));
-      for (int a = 0; a < dim; a++) trace += l[a * dim + a];
-      for (int k = 0; k < dim * (dim + 1) / 2; k++) {
-        int a = row[packed[dim][k]], e = column[packed[dim][k]];
-        d[a][e] =
-            0.5L * (l[a * dim + e] + l[e * dim + a]) - (a == e ? trace / (by_dim ? dim : 3) : 0);
-        real want = 2 * 1.5L * d[a][e];
-        for (int q = 0; q < dim; q++) { /* omega s - s omega */
-          tensor full_s;
-          full(dim, s, 0, full_s);
-          want += 0.5L * ((real)l[a * dim + q] - l[q * dim + a]) * full_s[q][e];
-          want -= full_s[a][q] * 0.5L * ((real)l[q * dim + e] - l[e * dim + q]);
-        }
-        check_close(rate[k], (double)want, 1e-14);
-      }
-      check_ok(sph_material_sound_speed(m, &b, &c));
-      check_rel(c * c, 4 + 2 * 1.5 * (1 - (by_dim ? 1.0 / dim : 1.0 / 3)) / 1.2, 1e-14);
-      check_ok(sph_material_shear_speed(m, &b, &shear));
-      check_rel(shear * shear, 1.5 / 1.2, 1e-14);
-      check_ok(sph_material_pressure(m, &b, &c));
-      check_rel(c, 0.8, 1e-14);
-      refused(ctx, sph_material_temperature(m, &b, &c), SPH_ERR_UNSUPPORTED, "temperature");
-      rho = 0;
-      refused(ctx, sph_material_sound_speed(m, &b, &c), SPH_ERR_NUMERIC,
-              "particle 0: density 0 is not positive");
-      refused(ctx, sph_material_shear_speed(m, &b, &c), SPH_ERR_NUMERIC, "density");
-      sph_material_destroy(m);
-    }
-  sph_context_destroy(ctx);
-}
-
-/* Stretched and sheared far beyond yielding: the limited rate with small Euler steps, and the
- * return after steps of the free rate, end at the same stress, q = Y. */
-static void follow(const sph_material *m, int32_t dim, int steps, int returns, double *s) {
-  const double motion[9] = {0.5, 1.0, 0.2, -0.3, -0.2, 0.4, 0.6, 0, -0.1};
-  double l[9], rate[6];
-  sph_material_block b;
-  for (int k = 0; k < dim * dim; k++) l[k] = motion[k];
-  sph_material_block_init(&b);
-  b.dim = dim;
-  b.n = 1;
-  b.velocity_gradient = l;
-  b.sigma = s;
-  for (int k = 0; k < steps; k++) {
-    check_ok(sph_material_stress_rate(m, &b, rate));
-    for (int c = 0; c < dim * (dim + 1) / 2; c++) s[c] += rate[c] / steps;
-    if (returns) check_ok(sph_material_plastic_return(m, dim, 1, s, NULL, NULL, NULL));
-  }
-}
-
-static void test_limited_rate(void **state) {
-  (void)state;
-  sph_context *ctx = make_context();
-  for (int32_t dim = 1; dim <= 3; dim++) {
-    sph_strength_options o = strength_options(0.25);
-    sph_material *plain = make_strength(ctx, &o);
-    o.limit_rate = 1;
-    sph_material *limited = make_strength(ctx, &o);
-    double returned[6] = {0}, rated[6] = {0};
-    follow(plain, dim, 20000, 1, returned);
-    follow(limited, dim, 20000, 0, rated);
-    for (int c = 0; c < dim * (dim + 1) / 2; c++) check_close(rated[c], returned[c], 1e-3 * 0.25);
-    tensor t;
-    full(dim, rated, 0, t);
-    if (dim == 1) t[1][1] = t[2][2] = -0.5L * rated[0];
-    if (dim == 2) t[2][2] = -(real)rated[0] - rated[1];
-    check_rel((double)equivalent(t), 0.25, 1e-3);
-    double over[6]; /* the rate over the array of the stress */
-    double l[9] = {1, 2, 0, 0, -1, 0, 0, 0, 0.5}, want[6];
-    memcpy(over, rated, sizeof over);
-    sph_material_block b;
-    sph_material_block_init(&b);
-    b.dim = dim;
-    b.n = 1;
-    b.velocity_gradient = l;
-    b.sigma = over;
-    check_ok(sph_material_stress_rate(limited, &b, want));
-    check_ok(sph_material_stress_rate(limited, &b, over));
-    for (int c = 0; c < dim * (dim + 1) / 2; c++) assert_true(over[c] == want[c]);
-    sph_material_destroy(plain);
-    sph_material_destroy(limited);
-  }
-  sph_context_destroy(ctx);
-}
-
-static void test_references(void **state) {
-  (void)state;
-  sph_context *ctx = make_context();
-  int destroyed = 0;
-  sph_material *fluid = NULL, *m = NULL;
-  sph_strength_options o = strength_options(1);
-  check_ok(make_fluid(ctx, &destroyed, &fluid));
-  check_ok(sph_material_create_strength(ctx, fluid, &o, &m));
-  sph_material_destroy(fluid);
-  assert_int_equal(destroyed, 0);
-  sph_material_destroy(m);
-  assert_int_equal(destroyed, 1);
-  sph_context_destroy(ctx);
-}
-
 /* ---- refusals ---- */
 
 static void test_von_mises_refusals(void **state) {
@@ -550,47 +313,12 @@ static void test_von_mises_refusals(void **state) {
   sph_context_destroy(ctx);
 }
 
-static void test_strength_refusals(void **state) {
-  (void)state;
-  sph_context *ctx = make_context();
-  sph_material *fluid = NULL, *plastic = make(ctx, SPH_SOLID, 0), *m = NULL;
-  int destroyed = 0;
-  double s[6] = {0};
-  check_ok(make_fluid(ctx, &destroyed, &fluid));
-  sph_strength_options o = strength_options(1);
-  refused(ctx, sph_material_create_strength(ctx, plastic, &o, &m), SPH_ERR_ARG, "no pressure");
-  o.shear = 0;
-  refused(ctx, sph_material_create_strength(ctx, fluid, &o, &m), SPH_ERR_ARG, "shear");
-  o = strength_options(0);
-  refused(ctx, sph_material_create_strength(ctx, fluid, &o, &m), SPH_ERR_ARG, "yield");
-  o = strength_options(1);
-  o.hardening = 1;
-  o.limit_rate = 1;
-  refused(ctx, sph_material_create_strength(ctx, fluid, &o, &m), SPH_ERR_ARG, "limit_rate");
-  o.hardening = -1;
-  refused(ctx, sph_material_create_strength(ctx, fluid, &o, &m), SPH_ERR_ARG, "hardening");
-  assert_null(m);
-  refused(ctx, sph_material_plastic_return(fluid, 3, 1, s, NULL, NULL, NULL), SPH_ERR_UNSUPPORTED,
-          "plastic_return");
-  sph_material_destroy(fluid);
-  assert_int_equal(destroyed, 1); /* a failed creation keeps no reference */
-  sph_material_destroy(plastic);
-  sph_context_destroy(ctx);
-}
-
 static sph_status lives(sph_context *ctx, void *user) {
-  int destroyed = 0;
-  sph_material *fluid = NULL, *m = NULL, *plastic = NULL;
-  sph_strength_options o = strength_options(1);
-  sph_von_mises_options v = options_of(SPH_SOLID, 0.1);
+  sph_material *m = NULL;
+  sph_von_mises_options o = options_of(SPH_SOLID, 0.1);
   (void)user;
-  sph_status status = make_fluid(ctx, &destroyed, &fluid);
-  if (status == SPH_OK) status = sph_material_create_strength(ctx, fluid, &o, &m);
-  if (status == SPH_OK) status = sph_material_create_von_mises(ctx, &v, &plastic);
-  sph_material_destroy(plastic);
+  sph_status status = sph_material_create_von_mises(ctx, &o, &m);
   sph_material_destroy(m);
-  assert_int_equal(destroyed, 0);
-  sph_material_destroy(fluid);
   return status;
 }
 
@@ -607,12 +335,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_hugoniot_elastic_limit),
     cmocka_unit_test(test_isotropy),
     cmocka_unit_test(test_elastic_part),
-    cmocka_unit_test(test_strength_return),
-    cmocka_unit_test(test_strength_rate),
-    cmocka_unit_test(test_limited_rate),
-    cmocka_unit_test(test_references),
     cmocka_unit_test(test_von_mises_refusals),
-    cmocka_unit_test(test_strength_refusals),
     cmocka_unit_test(test_out_of_memory),
 };
 SPH_TEST_MAIN(tests)

@@ -2,27 +2,10 @@
  * in which the stretches across are found by bisection on the slope of that energy, and the
  * stresses by differences of it; objectivity, the limit of small strains, ranges. */
 #include "../../src/material/material_impl.h"
-#include "../check.h"
+#include "../material_help.h"
 #include "../oom.h"
 
-#include <sph/sph.h>
-
-static uint64_t random_state = 11;
-static double random_signed(void) { /* splitmix64, in (-1, 1) */
-  uint64_t z = (random_state += UINT64_C(0x9e3779b97f4a7c15));
-  z = (z ^ (z >> 30)) * UINT64_C(0xbf58476d1ce4e5b9);
-  z = (z ^ (z >> 27)) * UINT64_C(0x94d049bb133111eb);
-  z ^= z >> 31;
-  return (double)(z >> 11) * 0x1p-52 - 1;
-}
-
 static const double young = 2.7;
-
-static sph_context *make_context(void) {
-  sph_context *ctx = NULL;
-  check_ok(sph_context_create(NULL, &ctx));
-  return ctx;
-}
 
 static sph_hyperelastic_options options_of(int32_t law, int32_t reduction, double nu) {
   sph_hyperelastic_options o;
@@ -40,16 +23,6 @@ static sph_material *make(sph_context *ctx, int32_t law, int32_t reduction, doub
   sph_material *m = NULL;
   check_ok(sph_material_create_hyperelastic(ctx, &o, &m));
   return m;
-}
-
-static int32_t dim_of(int32_t reduction) {
-  return reduction <= SPH_UNIAXIAL_STRAIN ? 1 : reduction <= SPH_PLANE_STRAIN ? 2 : 3;
-}
-
-static void refused(sph_context *ctx, sph_status got, sph_status want, const char *words) {
-  check_status(got, want);
-  if (strstr(sph_context_last_error(ctx), words) == NULL)
-    fail_msg("\"%s\" is not in \"%s\"", words, sph_context_last_error(ctx));
 }
 
 /* ---- the oracle ---- */
