@@ -23,6 +23,7 @@ typedef struct mirror_job {
   const uint32_t *mask;
   const double *place; /* the position field */
   const double *rho;
+  const double *gradient; /* the field with the velocity gradients, or NULL */
   int32_t *phases;
   int32_t columns;
   column column[COLUMNS];
@@ -35,13 +36,15 @@ typedef struct crossing {
   const sphi_plane *reference;
   double d, rho;
   sph_wall_data data;
-  double c[3]; /* -2 d rho (a_b - g), the change of the traction across the wall */
+  const double *L; /* velocity gradient of what passes; NULL: not known */
+  double c[3];     /* -2 d rho (a_b - g), the change of the traction across the wall */
 } crossing;
 
 /* --- fields ------------------------------------------------------------------------------ */
 
-static int fits(const sph_ghosts *g, int32_t mirror, int32_t components) {
-  const int32_t dim = g->options.dim;
+static int fits(const sph_ghosts *g, int32_t field, int32_t components) {
+  const int32_t dim = g->options.dim, mirror = g->mirror[field];
+  if (field == g->options.gradient_field && components != dim * dim) return 0;
   if (mirror == SPH_MIRROR_VECTOR) return components == dim;
   return mirror != SPH_MIRROR_TENSOR || components == sph_sym_components(dim);
 }
@@ -50,9 +53,12 @@ sph_status sphi_mirror_check(const sph_ghosts *g, const sph_particles *set) {
   if (sph_particles_dim(set) != g->options.dim)
     return sphi_fail(g->base.ctx, SPH_ERR_ARG, "ghosts: the set is %d-D, the walls %d-D",
                      sph_particles_dim(set), g->options.dim);
+  if (g->options.gradient_field >= 0 && !sph_particles_components(set, g->options.gradient_field))
+    return sphi_fail(g->base.ctx, SPH_ERR_ARG, "ghosts: the set has no gradient_field %d",
+                     g->options.gradient_field);
   for (int32_t f = 0; f < SPHI_FIELD_IDS; ++f) {
     const int32_t components = sph_particles_components(set, f);
-    if (components > 0 && !fits(g, g->mirror[f], components))
+    if (components > 0 && !fits(g, f, components))
       return sphi_fail(g->base.ctx, SPH_ERR_ARG,
                        "ghosts: mirror %d does not fit the %d components of field %s", g->mirror[f],
                        components, sphi_field_name(set, f));
@@ -90,14 +96,31 @@ static void reflect_tensor(double s[3][3], const double *n) {
       s[a][b] += -2.0 * (sn[a] * n[b] + n[a] * sn[b]) + 4.0 * nsn * n[a] * n[b];
 }
 
-/* v_r - 2 d dv/dn with dv_n/dn = w_n/M, dv_t/dn = w_t/G, w = -dt/dt. */
+/* What the velocity gradient tells: D_t = tr L - n.L n and grad_t v_n = L^T n - (n.L n) n. */
+static double along_wall(int32_t dim, const crossing *x, double *slope) {
+  const double *n = x->wall->normal;
+  double trace = 0.0, nLn = 0.0;
+  for (int32_t b = 0; b < dim; ++b) {
+    slope[b] = 0.0;
+    for (int32_t a = 0; x->L && a < dim; ++a) slope[b] += n[a] * x->L[a * dim + b];
+    if (x->L) trace += x->L[b * dim + b];
+    nLn += slope[b] * n[b];
+  }
+  for (int32_t b = 0; b < dim; ++b) slope[b] -= nLn * n[b];
+  return trace - nLn;
+}
+
+/* v_r - 2 d dv/dn from Hooke's law, with w = -dt/dt. */
 static void traction_velocity(int32_t dim, const crossing *x, double *v) {
   const double *n = x->wall->normal, *rate = x->data.traction_rate;
-  const double along = -sphi_dot(dim, rate, n);
-  const double m = x->wall->modulus > 0.0 ? 1.0 / x->wall->modulus : 0.0;
-  const double g = x->wall->shear_modulus > 0.0 ? 1.0 / x->wall->shear_modulus : 0.0;
-  for (int32_t a = 0; a < dim; ++a)
-    v[a] -= 2.0 * x->d * (along * m * n[a] + (-rate[a] - along * n[a]) * g);
+  const double M = x->wall->modulus, G = x->wall->shear_modulus, w_n = -sphi_dot(dim, rate, n);
+  double slope[3];
+  const double spread = along_wall(dim, x, slope);
+  const double normal = M > 0.0 ? (w_n - (M - 2.0 * G) * spread) / M : 0.0;
+  for (int32_t a = 0; a < dim; ++a) {
+    const double across = G > 0.0 ? (-rate[a] - w_n * n[a]) / G - slope[a] : 0.0;
+    v[a] -= 2.0 * x->d * (normal * n[a] + across);
+  }
 }
 
 static void mirror_velocity(int32_t dim, const crossing *x, double *v) {
@@ -142,6 +165,23 @@ static double mirror_pressure(const crossing *x, double p) {
   return p - sphi_dot(3, x->c, n);
 }
 
+/* L -> Q L Q, -L Q where velocities are odd, L where they are continued. */
+static void mirror_gradient(int32_t dim, const crossing *x, double *L) {
+  const double *n = x->wall->normal;
+  const int32_t kind = x->wall->kind;
+  if (kind == SPH_WALL_TRACTION) return;
+  for (int32_t a = 0; a < dim; ++a) reflect(dim, L + a * dim, n, 0.0);
+  for (int32_t b = 0; b < dim; ++b) {
+    double along = 0.0;
+    for (int32_t a = 0; a < dim; ++a) along += n[a] * L[a * dim + b];
+    for (int32_t a = 0; a < dim; ++a)
+      if (kind == SPH_WALL_SLIP)
+        L[a * dim + b] -= 2.0 * along * n[a];
+      else
+        L[a * dim + b] = -L[a * dim + b];
+  }
+}
+
 /* The fields whose mirror is their wall's. */
 static void through_wall(int32_t dim, const crossing *x, int32_t field, double *f) {
   const double *n = x->wall->normal;
@@ -164,8 +204,11 @@ static void through_wall(int32_t dim, const crossing *x, int32_t field, double *
   case SPH_FIELD_A:
     reflect(dim, f, n, 0.0);
     break;
-  default: /* M: pairs that the library's terms must not see, or an escaped owner */
+  case SPH_FIELD_M: /* pairs that the library's terms must not see, or an escaped owner */
     if (x->wall->kind == SPH_WALL_PAIRWISE || !(x->d > 0.0)) f[0] = 0.0;
+    break;
+  default:
+    mirror_gradient(dim, x, f);
     break;
   }
 }
@@ -215,7 +258,8 @@ static void mirror_ghost(const mirror_job *j, int64_t k) {
   j->phases[ghost] = j->phases[owner];
   for (int32_t w = 0; j->mask[k] >> w; ++w) {
     if (!(j->mask[k] >> w & 1)) continue;
-    const crossing x = make_crossing(j, owner, w);
+    crossing x = make_crossing(j, owner, w);
+    if (j->gradient) x.L = j->gradient + ghost * j->dim * j->dim; /* fields come before it */
     for (int32_t f = 0; f < j->columns; ++f)
       apply(j->dim, &x, &j->column[f], j->column[f].values + ghost * j->column[f].components);
   }
@@ -236,6 +280,8 @@ static mirror_job make_job(const sph_ghosts *g, const sph_particles *set, double
   j.mask = g->mask.ptr;
   j.place = sph_particles_field_const(set, g->options.position_field);
   j.rho = sph_particles_field_const(set, SPH_FIELD_RHO);
+  if (g->options.gradient_field >= 0)
+    j.gradient = sph_particles_field_const(set, g->options.gradient_field);
   for (int32_t w = 0; w < g->walls; ++w) j.plane[w] = sphi_wall_plane(g, next, w);
   return j;
 }

@@ -508,10 +508,148 @@ static void test_wave_order(void **state) {
   }
 }
 
+/* --- free surfaces ------------------------------------------------------------------------- */
+
+/* Lame's mode of a square plate of side 1 with four free edges, k = pi, rho = G = 1:
+ *   v = (-cos kx sin ky, sin kx cos ky) cos(omega t),  omega = sqrt(2) k,
+ *   sigma_xx = -sigma_yy = 2 k sin kx sin ky sin(omega t) / omega,  sigma_xy = 0.
+ * At the edge x = 0 the tangential velocity has the slope -dv_x/dy, not 0. */
+static void lame(double x, double y, double t, double v[2], double sigma[3]) {
+  const double k = 3.141592653589793, omega = sqrt(2.0) * k;
+  v[0] = -cos(k * x) * sin(k * y) * cos(omega * t);
+  v[1] = sin(k * x) * cos(k * y) * cos(omega * t);
+  sigma[0] = 2.0 * k * sin(k * x) * sin(k * y) * sin(omega * t) / omega;
+  sigma[1] = -sigma[0];
+  sigma[2] = 0.0;
+}
+
+typedef struct plate {
+  rh_system s;
+  sph_ghosts *ghosts;
+  sph_rhs *rhs;
+  sph_integrator *it;
+  int32_t gradient;
+  strip law;
+} plate;
+
+static rh_system plate_particles(sph_context *ctx, int n) {
+  rh_system s = {.ctx = ctx, .dim = 2, .n = (int64_t)n * n, .rows = (int64_t)n * n};
+  sph_particles_options po;
+  const double dp = 1.0 / n;
+  sph_particles_options_init(&po);
+  po.dim = 2;
+  check_ok(sph_particles_create(ctx, &po, &s.set));
+  check_ok(sph_particles_add(s.set, s.rows, NULL));
+  check_ok(sph_kernel_create(ctx, SPH_KERNEL_CUBIC_SPLINE, 2, &s.kernel));
+  check_ok(sph_neighbors_create(ctx, NULL, &s.list));
+  for (int64_t i = 0; i < s.rows; i++) {
+    double *x = rh_field(&s, SPH_FIELD_X0) + 2 * i;
+    x[0] = ((double)(i % n) + 0.5) * dp;
+    x[1] = ((double)(i / n) + 0.5) * dp;
+    lame(x[0], x[1], 0.0, rh_field(&s, SPH_FIELD_V) + 2 * i, rh_field(&s, SPH_FIELD_SIGMA) + 3 * i);
+    rh_field(&s, SPH_FIELD_M)[i] = dp * dp;
+    rh_field(&s, SPH_FIELD_RHO)[i] = 1.0;
+    rh_field(&s, SPH_FIELD_H)[i] = 1.5 * dp;
+  }
+  return s;
+}
+
+static void plate_walls(plate *p, int with_gradient) {
+  const gh_frame frame = gh_identity();
+  sph_ghosts_options go;
+  sph_ghosts_options_init(&go);
+  go.dim = 2;
+  go.position_field = SPH_FIELD_X0;
+  if (with_gradient) go.gradient_field = p->gradient;
+  check_ok(sph_ghosts_create(p->s.ctx, &go, &p->ghosts));
+  for (int face = 0; face < 4; face++) {
+    sph_wall w = gh_wall(&frame, 2, 1.0, face, SPH_WALL_TRACTION);
+    w.modulus = p->law.lame_m;
+    w.shear_modulus = p->law.g;
+    gh_add(p->ghosts, &w);
+  }
+}
+
+static void plate_rhs(plate *p) {
+  sph_rhs_options ro;
+  sph_material *m = NULL;
+  sph_material_functions f;
+  sph_rhs_options_init(&ro);
+  ro.position_field = SPH_FIELD_X0;
+  check_ok(sph_rhs_create(p->s.ctx, p->s.kernel, &ro, &p->rhs));
+  sph_material_functions_init(&f);
+  f.stress_rate = strip_law;
+  check_ok(sph_material_create(p->s.ctx, &f, &p->law, &m));
+  check_ok(sph_rhs_set_material(p->rhs, 0, m));
+  sph_material_destroy(m);
+  add_term(p->rhs, SPH_TERM_STRESS, SPH_STRESS_SUMMED, 1);
+  add_term(p->rhs, SPH_TERM_STRESS_RATE, 0, 1);
+  check_ok(sph_rhs_set_prepare(p->rhs, sph_ghosts_prepare, p->ghosts));
+  check_ok(sph_integrator_create(p->s.ctx, NULL, &p->it));
+  check_ok(sph_integrator_bind_field(p->it, SPH_FIELD_V));
+  check_ok(sph_integrator_bind_field(p->it, SPH_FIELD_SIGMA));
+  check_ok(sph_integrator_set_rhs(p->it, p->rhs, p->s.list));
+}
+
+/* The velocity gradient of the present state, with the ghosts as they are. */
+static void plate_gradient(const plate *p) {
+  const rh_system *s = &p->s;
+  double *matrix = rh_array(4 * sph_particles_count(s->set)), *L = rh_field(s, p->gradient);
+  sph_operands a;
+  check_ok(sph_operands_from_set(s->set, &a));
+  a.x = gh_const(s, SPH_FIELD_X0);
+  check_ok(sph_neighbors_update_arrays(s->list, 2, a.n, a.x, a.h, 0.0, NULL));
+  check_ok(sph_gradient_matrix(s->list, s->kernel, &a, matrix, NULL, NULL));
+  a.gradient_matrix = matrix;
+  check_ok(sph_velocity_gradient(s->list, s->kernel, &a, L));
+  free(matrix);
+}
+
+/* Relative L2 error of the velocity after a quarter of a period and a bit. */
+static double plate_error(int n, int with_gradient) {
+  sph_context *ctx = rh_context(1);
+  plate p = {.s = plate_particles(ctx, n), .law = {.lame_m = 3.0, .g = 1.0, .rho = 1.0}};
+  check_ok(sph_particles_add_field(p.s.set, "L", 4, &p.gradient));
+  plate_walls(&p, with_gradient);
+  plate_rhs(&p);
+  const double end = 0.5;
+  const int steps = n;
+  double e2 = 0.0, s2 = 0.0;
+  for (int k = 0; k < steps; k++) {
+    check_ok(sph_ghosts_update(p.ghosts, p.s.set, 0.0));
+    plate_gradient(&p);
+    check_ok(sph_integrator_step(p.it, p.s.set, k * end / steps, end / steps, NULL));
+  }
+  for (int64_t i = 0; i < p.s.rows; i++) {
+    const double *x = gh_const(&p.s, SPH_FIELD_X0) + 2 * i;
+    double v[2], sigma[3];
+    lame(x[0], x[1], end, v, sigma);
+    for (int a = 0; a < 2; a++) {
+      const double e = gh_const(&p.s, SPH_FIELD_V)[2 * i + a] - v[a];
+      e2 += e * e;
+      s2 += v[a] * v[a];
+    }
+  }
+  sph_integrator_destroy(p.it);
+  sph_rhs_destroy(p.rhs);
+  sph_ghosts_destroy(p.ghosts);
+  rh_free(&p.s);
+  sph_context_destroy(ctx);
+  return sqrt(e2 / s2);
+}
+
+static void test_free_plate(void **state) {
+  (void)state;
+  const double coarse = plate_error(10, 1), fine = plate_error(40, 1), plain = plate_error(40, 0);
+  const double rate = log(coarse / fine) / log(4.0);
+  if (!(rate > 1.9 && fine < 0.02 && plain > 5.0 * fine))
+    fail_msg("errors %g, %g, rate %g; without the velocity gradient %g", coarse, fine, rate, plain);
+}
+
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_gradients),      cmocka_unit_test(test_pairs),
     cmocka_unit_test(test_target_skipped), cmocka_unit_test(test_hydrostatic),
     cmocka_unit_test(test_momentum),       cmocka_unit_test(test_pressure_law),
-    cmocka_unit_test(test_wave_order),
+    cmocka_unit_test(test_wave_order),     cmocka_unit_test(test_free_plate),
 };
 SPH_TEST_MAIN(tests)
