@@ -48,7 +48,13 @@
  * 2 t.n - P_r; others, the host's fields too, are copied, with the phase. sph_ghosts_set_mirror()
  * changes that. Images about several walls at right angles (edges, corners) pass through one wall
  * after the other, in the order in which they were added; where velocities and accelerations of the
- * walls agree at the corner any order gives the same. */
+ * walls agree at the corner any order gives the same.
+ *
+ * In a frozen configuration (position_field X0) X is X0_g + u_g instead, with the displacement u as
+ * the velocity: Q u + 2 (u_b.n) n at SLIP walls, 2 u_b - u at those that stick, u at TRACTION
+ * walls, u_b being how far the wall's point has moved since it was added. The full total-Lagrangian
+ * form (rhs.h) makes F and PK of the ghosts itself, from X: SLIP and sticking walls act on it as
+ * they should, TRACTION walls do not. */
 #ifndef SPH_BOUNDARY_H
 #define SPH_BOUNDARY_H
 
@@ -174,7 +180,8 @@ enum {
   SPH_MIRROR_VECTOR = 2, /* Q f; dim components */
   SPH_MIRROR_TENSOR = 3, /* Q f Q; packed symmetric */
   SPH_MIRROR_LEAVE = 4,  /* not written: the host does it, see sph_ghosts_owners() */
-  SPH_MIRROR_WALL = 5    /* by the kind of wall; only and the default of X, X0, V, SIGMA, P, A, M */
+  SPH_MIRROR_WALL = 5,   /* by the kind of wall; only and the default of X, X0, V, SIGMA, P, A, M */
+  SPH_MIRROR_MATRIX = 6  /* Q f Q; dim * dim, row-major; default of F, PK */
 };
 
 /* Choose for one field, built-in or the host's (its id). SPH_ERR_ARG: a field outside 0..127, an
@@ -199,9 +206,9 @@ SPH_API sph_status sph_ghosts_set_mirror(sph_ghosts *ghosts, int32_t field, int3
 SPH_API sph_status sph_ghosts_update(sph_ghosts *ghosts, sph_particles *set, double t);
 
 /* Write the fields of the existing ghosts from their owners at time t: O(ghosts fields). X, X0 and
- * H are touched. SPH_ERR_STATE: no update since the set changed, or an escaped owner (with IGNORE
- * such a ghost gets the mass 0 until the next update). Others as above; the ghosts are as before
- * then. Since 0.1. */
+ * H are touched where they changed. SPH_ERR_STATE: no update since the set changed, or an escaped
+ * owner (with IGNORE such a ghost gets the mass 0 until the next update). Others as above; the
+ * ghosts are as before then. Since 0.1. */
 SPH_API sph_status sph_ghosts_refresh(sph_ghosts *ghosts, sph_particles *set, double t);
 
 /* A prepare hook (user: the sph_ghosts): refresh while the images serve, else update. The

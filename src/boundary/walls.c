@@ -53,6 +53,7 @@ static void set_default_mirrors(sph_ghosts *g) {
   memset(g->mirror, SPH_MIRROR_COPY, sizeof g->mirror);
   for (size_t k = 0; k < sizeof by_wall / sizeof *by_wall; ++k)
     g->mirror[by_wall[k]] = SPH_MIRROR_WALL;
+  g->mirror[SPH_FIELD_F] = g->mirror[SPH_FIELD_PK] = SPH_MIRROR_MATRIX;
 }
 
 sph_status sph_ghosts_create(sph_context *ctx, const sph_ghosts_options *options,
@@ -241,7 +242,7 @@ sph_status sph_ghosts_set_mirror(sph_ghosts *g, int32_t field, int32_t mirror) {
   if (s) return s;
   if (field < 0 || field >= SPHI_FIELD_IDS)
     return sphi_fail(g->base.ctx, SPH_ERR_ARG, "ghosts: there is no field %d", field);
-  if (mirror < SPH_MIRROR_COPY || mirror > SPH_MIRROR_WALL ||
+  if (mirror < SPH_MIRROR_COPY || mirror > SPH_MIRROR_MATRIX ||
       (mirror == SPH_MIRROR_WALL && !by_wall(g, field)))
     return sphi_fail(g->base.ctx, SPH_ERR_ARG, "ghosts: mirror %d for field %d", mirror, field);
   g->mirror[field] = (int8_t)mirror;

@@ -110,7 +110,7 @@ static void test_walls(void **state) {
   static const int32_t bad[][2] = {{-1, SPH_MIRROR_COPY},
                                    {128, SPH_MIRROR_COPY},
                                    {SPH_FIELD_V, 0},
-                                   {SPH_FIELD_V, 6},
+                                   {SPH_FIELD_V, 7},
                                    {SPH_FIELD_E, SPH_MIRROR_WALL}};
   for (int k = 0; k < 5; k++)
     check_status(sph_ghosts_set_mirror(g, bad[k][0], bad[k][1]), SPH_ERR_ARG);

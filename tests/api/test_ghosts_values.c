@@ -401,18 +401,21 @@ static void test_other_fields(void **state) {
   sph_context *ctx = rh_context(1);
   rh_system s = one_particle(ctx);
   sph_ghosts *g = gh_ghosts(&s, 0.0);
-  int32_t plain, vector, tensor, left;
+  int32_t plain, vector, tensor, left, matrix;
   check_ok(sph_particles_add_field(s.set, "plain", 5, &plain));
   check_ok(sph_particles_add_field(s.set, "vector", 2, &vector));
   check_ok(sph_particles_add_field(s.set, "tensor", 3, &tensor));
   check_ok(sph_particles_add_field(s.set, "left", 1, &left));
+  check_ok(sph_particles_add_field(s.set, "matrix", 4, &matrix));
+  check_ok(sph_ghosts_set_mirror(g, matrix, SPH_MIRROR_MATRIX));
   check_ok(sph_ghosts_set_mirror(g, vector, SPH_MIRROR_VECTOR));
   check_ok(sph_ghosts_set_mirror(g, tensor, SPH_MIRROR_TENSOR));
   check_ok(sph_ghosts_set_mirror(g, left, SPH_MIRROR_LEAVE));
   check_ok(sph_ghosts_set_mirror(g, SPH_FIELD_V, SPH_MIRROR_COPY));
-  const int32_t fields[] = {plain,       vector,      tensor,           left,
-                            SPH_FIELD_A, SPH_FIELD_E, SPH_FIELD_SPACING};
-  for (int k = 0; k < 7; k++)
+  const int32_t fields[] = {
+      plain,  vector,     tensor, left, SPH_FIELD_A, SPH_FIELD_E, SPH_FIELD_SPACING,
+      matrix, SPH_FIELD_F};
+  for (int k = 0; k < 9; k++)
     for (int c = 0; c < sph_particles_components(s.set, fields[k]); c++)
       rh_field(&s, fields[k])[c] = 10.0 * k + c + 1.0;
   sph_particles_phases(s.set)[0] = 4;
@@ -427,6 +430,11 @@ static void test_other_fields(void **state) {
   assert_true(gh_const(&s, tensor)[3] == 21.0 && gh_const(&s, tensor)[4] == 22.0);
   assert_true(gh_const(&s, tensor)[5] == -23.0);
   assert_true(gh_const(&s, left)[1] == 0.0);
+  for (int c = 0; c < 4; c++) { /* those with one index across the wall change sign */
+    const double sign = c == 1 || c == 2 ? -1.0 : 1.0;
+    assert_true(gh_const(&s, matrix)[4 + c] == sign * (71.0 + c));
+    assert_true(gh_const(&s, SPH_FIELD_F)[4 + c] == sign * (81.0 + c));
+  }
   assert_true(gh_const(&s, SPH_FIELD_A)[2] == 41.0 && gh_const(&s, SPH_FIELD_A)[3] == -42.0);
   assert_true(gh_const(&s, SPH_FIELD_E)[1] == 51.0 && gh_const(&s, SPH_FIELD_SPACING)[1] == 61.0);
   assert_true(gh_const(&s, SPH_FIELD_C)[1] == gh_const(&s, SPH_FIELD_C)[0]);
