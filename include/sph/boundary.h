@@ -131,13 +131,16 @@ typedef struct sph_ghosts_options {
   int32_t dim;            /* 1, 2 or 3; default 3 */
   int32_t position_field; /* by which distances are judged: SPH_FIELD_X (default), or SPH_FIELD_X0,
                            * with the walls as they were added, for a frozen configuration */
-  double support;         /* reach = support * largest h: no pair is missed; default 2 */
-  double reach;           /* > 0: this length instead; default 0 */
-  double skin;            /* images are made for particles nearer than reach + skin, and serve until
-                           * one has moved by skin, so that a Verlet list lives on; default 0 */
-  int32_t periodic[3];    /* nonzero: the axis wraps around; walls must be parallel to it */
-  int32_t escape;         /* SPH_ESCAPE_*; default FAIL */
-  double gravity[3];      /* body force per mass that the particles feel; default 0 */
+  /* reach = support * largest h: no pair is missed; default 2. Twice the kernel's support where a
+   * term makes something of a ghost from the ghost's own neighbours: the CONSERVATIVE forms (its
+   * gradient matrix) and the full total-Lagrangian form (its F) */
+  double support;
+  double reach;        /* > 0: this length instead; default 0 */
+  double skin;         /* images are made for particles nearer than reach + skin, and serve until
+                        * one has moved by skin, so that a Verlet list lives on; default 0 */
+  int32_t periodic[3]; /* nonzero: the axis wraps around; walls must be parallel to it */
+  int32_t escape;      /* SPH_ESCAPE_*; default FAIL */
+  double gravity[3];   /* body force per mass that the particles feel; default 0 */
   /* A field of the host's (dim * dim components) with the velocity gradient L of the real
    * particles, for TRACTION walls; default -1: none. A value of the last step will do: what it is
    * late by is of second order. Images get -L Q at walls that stick, Q L Q at SLIP walls, L at
@@ -161,7 +164,7 @@ SPH_API void sph_ghosts_destroy(sph_ghosts *ghosts);
 
 /* Add a wall, at most 32; copied. *index (may be NULL) receives its number, 0 upwards. Takes effect
  * with the next update.
- * SPH_ERR_ARG: unknown kind, normal of length 0 or not parallel to a periodic axis, a number not
+ * SPH_ERR_ARG: unknown kind, normal of length 0 or with a part along a periodic axis, a number not
  * finite, beta_max < 1, a negative modulus, a wall that faces the same way as another one for the
  * same particles. SPH_ERR_LIMIT, SPH_ERR_VERSION. Since 0.1. */
 SPH_API sph_status sph_ghosts_add_wall(sph_ghosts *ghosts, const sph_wall *wall, int32_t *index);

@@ -26,7 +26,7 @@ typedef struct mirror_job {
   const double *gradient; /* the field with the velocity gradients, or NULL */
   const double *x0;       /* X0 in a frozen configuration, or NULL */
   int32_t *phases;
-  int32_t columns;
+  int32_t columns, walled; /* the first `walled` are changed by walls, the others copied */
   column column[COLUMNS];
   int32_t changed[3]; /* X, X0, H: whether some ghost's value did */
   int64_t behind;     /* lowest ghost whose owner is not in front; INT64_MAX: none */
@@ -70,16 +70,24 @@ sph_status sphi_mirror_check(const sph_ghosts *g, const sph_particles *set) {
   return SPH_OK;
 }
 
-static void collect_fields(mirror_job *j, sph_particles *set) {
+static void collect(mirror_job *j, sph_particles *set, int copies) {
   for (int32_t f = 0; f < SPHI_FIELD_IDS; ++f) {
     column *c = &j->column[j->columns];
-    if (j->g->mirror[f] == SPH_MIRROR_LEAVE || !sph_particles_field_const(set, f)) continue;
+    const int32_t mirror = j->g->mirror[f];
+    if (mirror == SPH_MIRROR_LEAVE || (mirror == SPH_MIRROR_COPY) != copies) continue;
+    if (!sph_particles_field_const(set, f)) continue;
     if (sph_particles_field(set, f, &c->values)) continue; /* it exists, so this does not fail */
     c->field = f;
-    c->mirror = j->g->mirror[f];
+    c->mirror = mirror;
     c->components = sph_particles_components(set, f);
     j->columns++;
   }
+}
+
+static void collect_fields(mirror_job *j, sph_particles *set) {
+  collect(j, set, 0);
+  j->walled = j->columns;
+  collect(j, set, 1);
 }
 
 /* --- through one wall -------------------------------------------------------------------- */
@@ -293,20 +301,23 @@ static int watched(int32_t field) {
 static void copy_owner(const mirror_job *j, int64_t ghost, int64_t owner, double old[3][3]) {
   for (int32_t f = 0; f < j->columns; ++f) {
     const column *c = &j->column[f];
-    const size_t bytes = (size_t)c->components * sizeof(double);
+    const int k = watched(c->field);
+    const double *from = c->values + owner * c->components;
     double *to = c->values + ghost * c->components;
-    if (watched(c->field) >= 0) memcpy(old[watched(c->field)], to, bytes);
-    memcpy(to, c->values + owner * c->components, bytes);
+    for (int32_t a = 0; k >= 0 && a < c->components; ++a) old[k][a] = to[a];
+    for (int32_t a = 0; a < c->components; ++a) to[a] = from[a];
   }
   j->phases[ghost] = j->phases[owner];
 }
 
+/* Bits are compared, as a NaN that stays is no change. */
 static void notice_changes(mirror_job *j, int64_t ghost, double old[3][3]) {
   for (int32_t f = 0; f < j->columns; ++f) {
     const column *c = &j->column[f];
     const int k = watched(c->field);
-    if (k >= 0 && memcmp(old[k], c->values + ghost * c->components,
-                         (size_t)c->components * sizeof(double)) != 0)
+    if (k < 0 || __atomic_load_n(&j->changed[k], __ATOMIC_RELAXED)) continue;
+    if (memcmp(old[k], c->values + ghost * c->components, (size_t)c->components * sizeof(double)) !=
+        0)
       __atomic_store_n(&j->changed[k], 1, __ATOMIC_RELAXED);
   }
 }
@@ -321,7 +332,7 @@ static void mirror_ghost(mirror_job *j, int64_t k) {
     /* X and V come before the fields that they need as these were in front of the wall */
     if (j->gradient) x.L = j->gradient + ghost * j->dim * j->dim;
     if (j->x0) x.x0 = j->x0 + ghost * j->dim;
-    for (int32_t f = 0; f < j->columns; ++f)
+    for (int32_t f = 0; f < j->walled; ++f)
       apply(j->dim, &x, &j->column[f], j->column[f].values + ghost * j->column[f].components);
   }
   notice_changes(j, ghost, old);
