@@ -19,30 +19,42 @@
  *   NO_SLIP    (1 - beta) v_r + beta v_b,               sigma_r + A(-2 d rho (a_b - g))
  *              beta = min(beta_max, 1 + d_g/d_r)
  *   PAIRWISE   by pairs, see sph_no_slip_gradient()     by pairs
- *   TRACTION   v_r - 2 d [w_n/M n + w_t/G]              sigma_r + A(2 (-t - sigma_r n))
+ *   TRACTION   v_r - 2 d dv/dn                          sigma_r + A(2 (-t - sigma_r n))
  *   VELOCITY   2 v_b - v_r                              sigma_r + A(-2 d rho (a_b - g))
  *
  * Here A(c) = c n^T + n c^T - (c.n) n n^T changes the traction sigma n by c and leaves the stress
  * within the wall alone; rho is that of r; g the options' gravity; t the force per area on the body
- * (a pressure p is t = p n), w = -dt/dt with its parts w_n along and w_t across the normal; M and G
- * the wall's moduli, a term whose modulus is 0 being left out. At equal distances d_g = d_r, so
- * that beta = min(beta_max, 2) for mirror images: 2 reproduces linear fields, 1.5 is He's bound.
+ * (a pressure p is t = p n). At equal distances d_g = d_r, so that beta = min(beta_max, 2) for
+ * mirror images: 2 reproduces linear fields, 1.5 is He's bound. At a TRACTION wall
+ *
+ *   dv_n/dn = (w_n - (M - 2 G) D_t) / M,   dv_t/dn = w_t/G - grad_t v_n,   w = -dt/dt,
+ *
+ * n along and t across the normal, D_t the divergence of the velocity within the wall, M and G the
+ * wall's moduli; each line is 0 where its modulus is 0. D_t and grad_t v_n are taken from the
+ * velocity gradient of r where the options name a field with it, else they are 0.
  *
  * Sources: He = L. He, PhD thesis, Durham 2015: NO_SLIP (3.10), where (3.10b) prints -beta v_b (a
  * linear field then becomes -7.5 where 0.5 is due: (3.10a) gives the plus), stress (3.11); SLIP
  * (3.12), generalised from walls along the axes. He does not say how a traction or a velocity is
  * imposed. The terms in d are Taylor expansions about the wall: rho (a_b - g) = d(sigma n)/dn from
- * the momentum balance and dv/dn = (d sigma/dt)/M from Hooke's law (1-D: M = E), as far as they
- * follow from the wall's data alone: derivatives along the wall do not take part. With them the
- * order of convergence of waves rises from 1 to 2 where the fields vary across the wall (the
- * SLIP wall of a body at rest has that order anyway).
+ * the momentum balance without derivatives of the stress along the wall, dv/dn from Hooke's law,
+ * d sigma_nn/dt = M dv_n/dn + (M - 2 G) D_t and d sigma_nt/dt = G (dv_t/dn + grad_t v_n) (1-D: M =
+ * E). They raise the order of convergence of waves from 1 to 2, at TRACTION walls in 2-D and 3-D
+ * with the velocity gradient, unless nothing varies along the wall. The SLIP wall of a body without
+ * forces has that order anyway.
  *
  * All fields of the set are mirrored: X about the wall as it is, X0 about the wall as it was added,
  * V and SIGMA as above, A as a vector (Q A); pressure P_r + 2 d rho (a_b - g).n, at TRACTION walls
  * 2 t.n - P_r; others, the host's fields too, are copied, with the phase. sph_ghosts_set_mirror()
  * changes that. Images about several walls at right angles (edges, corners) pass through one wall
  * after the other, in the order in which they were added; where velocities and accelerations of the
- * walls agree at the corner any order gives the same. */
+ * walls agree at the corner any order gives the same.
+ *
+ * In a frozen configuration (position_field X0) X is X0_g + u_g instead, with the displacement u as
+ * the velocity: Q u + 2 (u_b.n) n at SLIP walls, 2 u_b - u at those that stick, u at TRACTION
+ * walls, u_b being how far the wall's point has moved since it was added. The full total-Lagrangian
+ * form (rhs.h) makes F and PK of the ghosts itself, from X: SLIP and sticking walls act on it as
+ * they should, TRACTION walls do not. */
 #ifndef SPH_BOUNDARY_H
 #define SPH_BOUNDARY_H
 
@@ -119,13 +131,21 @@ typedef struct sph_ghosts_options {
   int32_t dim;            /* 1, 2 or 3; default 3 */
   int32_t position_field; /* by which distances are judged: SPH_FIELD_X (default), or SPH_FIELD_X0,
                            * with the walls as they were added, for a frozen configuration */
-  double support;         /* reach = support * largest h: no pair is missed; default 2 */
-  double reach;           /* > 0: this length instead; default 0 */
-  double skin;            /* images are made for particles nearer than reach + skin, and serve until
-                           * one has moved by skin, so that a Verlet list lives on; default 0 */
-  int32_t periodic[3];    /* nonzero: the axis wraps around; walls must be parallel to it */
-  int32_t escape;         /* SPH_ESCAPE_*; default FAIL */
-  double gravity[3];      /* body force per mass that the particles feel; default 0 */
+  /* reach = support * largest h: no pair is missed; default 2. Twice the kernel's support where a
+   * term makes something of a ghost from the ghost's own neighbours: the CONSERVATIVE forms (its
+   * gradient matrix) and the full total-Lagrangian form (its F) */
+  double support;
+  double reach;        /* > 0: this length instead; default 0 */
+  double skin;         /* images are made for particles nearer than reach + skin, and serve until
+                        * one has moved by skin, so that a Verlet list lives on; default 0 */
+  int32_t periodic[3]; /* nonzero: the axis wraps around; walls must be parallel to it */
+  int32_t escape;      /* SPH_ESCAPE_*; default FAIL */
+  double gravity[3];   /* body force per mass that the particles feel; default 0 */
+  /* A field of the host's (dim * dim components) with the velocity gradient L of the real
+   * particles, for TRACTION walls; default -1: none. A value of the last step will do: what it is
+   * late by is of second order. Images get -L Q at walls that stick, Q L Q at SLIP walls, L at
+   * TRACTION walls. */
+  int32_t gradient_field;
 } sph_ghosts_options;
 
 /* Fill *options with the defaults. Since 0.1. */
@@ -134,7 +154,8 @@ SPH_API void sph_ghosts_options_init_sized(sph_ghosts_options *options, size_t s
 
 /* Create a handle without walls. options may be NULL. *out is NULL on failure.
  * SPH_ERR_ARG: dim outside 1..3, position_field neither X nor X0, support, reach, skin or gravity
- * negative (gravity: not finite), an unknown escape. SPH_ERR_VERSION, SPH_ERR_NOMEM. Since 0.1. */
+ * negative (gravity: not finite), an unknown escape, gradient_field neither -1 nor 64..127.
+ * SPH_ERR_VERSION, SPH_ERR_NOMEM. Since 0.1. */
 SPH_API sph_status sph_ghosts_create(sph_context *ctx, const sph_ghosts_options *options,
                                      sph_ghosts **out);
 
@@ -143,7 +164,7 @@ SPH_API void sph_ghosts_destroy(sph_ghosts *ghosts);
 
 /* Add a wall, at most 32; copied. *index (may be NULL) receives its number, 0 upwards. Takes effect
  * with the next update.
- * SPH_ERR_ARG: unknown kind, normal of length 0 or not parallel to a periodic axis, a number not
+ * SPH_ERR_ARG: unknown kind, normal of length 0 or with a part along a periodic axis, a number not
  * finite, beta_max < 1, a negative modulus, a wall that faces the same way as another one for the
  * same particles. SPH_ERR_LIMIT, SPH_ERR_VERSION. Since 0.1. */
 SPH_API sph_status sph_ghosts_add_wall(sph_ghosts *ghosts, const sph_wall *wall, int32_t *index);
@@ -162,7 +183,8 @@ enum {
   SPH_MIRROR_VECTOR = 2, /* Q f; dim components */
   SPH_MIRROR_TENSOR = 3, /* Q f Q; packed symmetric */
   SPH_MIRROR_LEAVE = 4,  /* not written: the host does it, see sph_ghosts_owners() */
-  SPH_MIRROR_WALL = 5    /* by the kind of wall; only and the default of X, X0, V, SIGMA, P, A, M */
+  SPH_MIRROR_WALL = 5,   /* by the kind of wall; only and the default of X, X0, V, SIGMA, P, A, M */
+  SPH_MIRROR_MATRIX = 6  /* Q f Q; dim * dim, row-major; default of F, PK */
 };
 
 /* Choose for one field, built-in or the host's (its id). SPH_ERR_ARG: a field outside 0..127, an
@@ -177,19 +199,19 @@ SPH_API sph_status sph_ghosts_set_mirror(sph_ghosts *ghosts, int32_t field, int3
  * none. Does not allocate in the set when the ghosts fit (sph_particles_reserve()); a set lent
  * arrays needs room for the ghosts in them. H must exist unless options.reach is given.
  *
- * SPH_ERR_ARG: another dimension, a missing field X0 or H, a mirror that does not fit the
- * components. SPH_ERR_STATE: an escaped particle. SPH_ERR_UNSUPPORTED: a particle within reach of
- * the edge of two walls that are not at right angles, for which mirror images do not close; two
- * walls face to face that are closer than reach + skin. SPH_ERR_LIMIT: a lent array has no room, or
- * 2^31 - 64 particles. SPH_RETRY, SPH_ERR_CALLBACK: from walls; SPH_ERR_NOMEM. The ghosts are as
- * before then. O(n walls + ghosts fields), on the context's threads; the same bits for any number
- * of them. Since 0.1. */
+ * SPH_ERR_ARG: another dimension, a missing field X0, H or gradient_field, a mirror that does not
+ * fit the components. SPH_ERR_STATE: an escaped particle. SPH_ERR_UNSUPPORTED: a particle within
+ * reach of the edge of two walls that are not at right angles, for which mirror images do not
+ * close; two walls face to face that are closer than reach + skin. SPH_ERR_LIMIT: a lent array has
+ * no room, or 2^31 - 64 particles. SPH_RETRY, SPH_ERR_CALLBACK: from walls; SPH_ERR_NOMEM. The
+ * ghosts are as before then. O(n walls + ghosts fields), on the context's threads; the same bits
+ * for any number of them. Since 0.1. */
 SPH_API sph_status sph_ghosts_update(sph_ghosts *ghosts, sph_particles *set, double t);
 
 /* Write the fields of the existing ghosts from their owners at time t: O(ghosts fields). X, X0 and
- * H are touched. SPH_ERR_STATE: no update since the set changed, or an escaped owner (with IGNORE
- * such a ghost gets the mass 0 until the next update). Others as above; the ghosts are as before
- * then. Since 0.1. */
+ * H are touched where they changed. SPH_ERR_STATE: no update since the set changed, or an escaped
+ * owner (with IGNORE such a ghost gets the mass 0 until the next update). Others as above; the
+ * ghosts are as before then. Since 0.1. */
 SPH_API sph_status sph_ghosts_refresh(sph_ghosts *ghosts, sph_particles *set, double t);
 
 /* A prepare hook (user: the sph_ghosts): refresh while the images serve, else update. The

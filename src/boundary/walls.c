@@ -14,7 +14,8 @@ void sph_ghosts_options_init_sized(sph_ghosts_options *options, size_t size) {
                                        .dim = 3,
                                        .position_field = SPH_FIELD_X,
                                        .support = 2.0,
-                                       .escape = SPH_ESCAPE_FAIL};
+                                       .escape = SPH_ESCAPE_FAIL,
+                                       .gradient_field = -1};
   sphi_options_init(options, size, &defaults, sizeof defaults);
 }
 
@@ -38,6 +39,9 @@ static sph_status check_options(sph_context *ctx, const sph_ghosts_options *o) {
                      o->reach, o->skin);
   if (o->escape < SPH_ESCAPE_FAIL || o->escape > SPH_ESCAPE_IGNORE)
     return sphi_fail(ctx, SPH_ERR_ARG, "ghosts: unknown escape %d", o->escape);
+  if (o->gradient_field != -1 && (o->gradient_field < 64 || o->gradient_field >= SPHI_FIELD_IDS))
+    return sphi_fail(ctx, SPH_ERR_ARG, "ghosts: gradient_field %d is no field of the host's",
+                     o->gradient_field);
   if (!finite_vector(o->gravity, o->dim))
     return sphi_fail(ctx, SPH_ERR_ARG, "ghosts: gravity is not finite");
   return SPH_OK;
@@ -49,6 +53,7 @@ static void set_default_mirrors(sph_ghosts *g) {
   memset(g->mirror, SPH_MIRROR_COPY, sizeof g->mirror);
   for (size_t k = 0; k < sizeof by_wall / sizeof *by_wall; ++k)
     g->mirror[by_wall[k]] = SPH_MIRROR_WALL;
+  g->mirror[SPH_FIELD_F] = g->mirror[SPH_FIELD_PK] = SPH_MIRROR_MATRIX;
 }
 
 sph_status sph_ghosts_create(sph_context *ctx, const sph_ghosts_options *options,
@@ -69,6 +74,7 @@ sph_status sph_ghosts_create(sph_context *ctx, const sph_ghosts_options *options
   g->base.ctx = ctx;
   g->options = own;
   set_default_mirrors(g);
+  if (own.gradient_field >= 0) g->mirror[own.gradient_field] = SPH_MIRROR_WALL;
   sphi_context_retain(ctx);
   *out = g;
   return SPH_OK;
@@ -225,10 +231,10 @@ sph_status sphi_walls_at(const sph_ghosts *g, double t, sph_wall *next) {
 
 /* --- mirrors ----------------------------------------------------------------------------- */
 
-static int by_wall(int32_t field) {
-  return field == SPH_FIELD_X || field == SPH_FIELD_X0 || field == SPH_FIELD_V ||
-         field == SPH_FIELD_SIGMA || field == SPH_FIELD_P || field == SPH_FIELD_A ||
-         field == SPH_FIELD_M;
+static int by_wall(const sph_ghosts *g, int32_t field) {
+  return field == g->options.gradient_field || field == SPH_FIELD_X || field == SPH_FIELD_X0 ||
+         field == SPH_FIELD_V || field == SPH_FIELD_SIGMA || field == SPH_FIELD_P ||
+         field == SPH_FIELD_A || field == SPH_FIELD_M;
 }
 
 sph_status sph_ghosts_set_mirror(sph_ghosts *g, int32_t field, int32_t mirror) {
@@ -236,8 +242,8 @@ sph_status sph_ghosts_set_mirror(sph_ghosts *g, int32_t field, int32_t mirror) {
   if (s) return s;
   if (field < 0 || field >= SPHI_FIELD_IDS)
     return sphi_fail(g->base.ctx, SPH_ERR_ARG, "ghosts: there is no field %d", field);
-  if (mirror < SPH_MIRROR_COPY || mirror > SPH_MIRROR_WALL ||
-      (mirror == SPH_MIRROR_WALL && !by_wall(field)))
+  if (mirror < SPH_MIRROR_COPY || mirror > SPH_MIRROR_MATRIX ||
+      (mirror == SPH_MIRROR_WALL && !by_wall(g, field)))
     return sphi_fail(g->base.ctx, SPH_ERR_ARG, "ghosts: mirror %d for field %d", mirror, field);
   g->mirror[field] = (int8_t)mirror;
   g->changes++;

@@ -35,6 +35,9 @@ static void test_options(void **state) {
   REFUSE(o.escape = 0)
   REFUSE(o.escape = 4)
   REFUSE(o.gravity[2] = NAN)
+  REFUSE(o.gradient_field = SPH_FIELD_V)
+  REFUSE(o.gradient_field = 128)
+  REFUSE(o.gradient_field = -2)
   REFUSE(o.size = 4)
 #undef REFUSE
   struct {
@@ -107,7 +110,7 @@ static void test_walls(void **state) {
   static const int32_t bad[][2] = {{-1, SPH_MIRROR_COPY},
                                    {128, SPH_MIRROR_COPY},
                                    {SPH_FIELD_V, 0},
-                                   {SPH_FIELD_V, 6},
+                                   {SPH_FIELD_V, 7},
                                    {SPH_FIELD_E, SPH_MIRROR_WALL}};
   for (int k = 0; k < 5; k++)
     check_status(sph_ghosts_set_mirror(g, bad[k][0], bad[k][1]), SPH_ERR_ARG);
@@ -123,6 +126,29 @@ static void check_refused(sph_ghosts *g, const rh_system *s, sph_status wanted, 
   assert_non_null(strstr(sph_context_last_error(s->ctx), word));
   assert_int_equal(sph_particles_count(s->set), count);
   assert_int_equal(sph_particles_generation(s->set), generation);
+}
+
+/* A field for the velocity gradient that does not exist, or has other components. */
+static void test_gradient_field(void **state) {
+  (void)state;
+  sph_context *ctx = rh_context(1);
+  rh_system s = rh_make(ctx, 2, SIDE, 0, 2);
+  sph_ghosts_options o;
+  int32_t field;
+  sph_ghosts_options_init(&o);
+  o.dim = 2;
+  o.gradient_field = 64;
+  sph_ghosts *g = make(&s, &o, SPH_OK);
+  check_refused(g, &s, SPH_ERR_ARG, "no gradient_field 64");
+  check_ok(sph_particles_add_field(s.set, "L", 3, &field));
+  assert_int_equal(field, 64);
+  check_refused(g, &s, SPH_ERR_ARG, "3 components");
+  check_ok(sph_ghosts_set_mirror(g, field, SPH_MIRROR_COPY));
+  check_refused(g, &s, SPH_ERR_ARG, "3 components");
+  check_ok(sph_ghosts_set_mirror(g, field, SPH_MIRROR_WALL));
+  sph_ghosts_destroy(g);
+  rh_free(&s);
+  sph_context_destroy(ctx);
 }
 
 static void test_updates(void **state) {
@@ -381,9 +407,10 @@ static void test_hold_traction(void **state) {
 }
 
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(test_options),    cmocka_unit_test(test_walls),
-    cmocka_unit_test(test_updates),    cmocka_unit_test(test_lent),
-    cmocka_unit_test(test_memory),     cmocka_unit_test(test_steady),
-    cmocka_unit_test(test_hold_field), cmocka_unit_test(test_hold_traction),
+    cmocka_unit_test(test_options),       cmocka_unit_test(test_walls),
+    cmocka_unit_test(test_updates),       cmocka_unit_test(test_gradient_field),
+    cmocka_unit_test(test_lent),          cmocka_unit_test(test_memory),
+    cmocka_unit_test(test_steady),        cmocka_unit_test(test_hold_field),
+    cmocka_unit_test(test_hold_traction),
 };
 SPH_TEST_MAIN(tests)

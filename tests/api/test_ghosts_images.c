@@ -395,6 +395,75 @@ static void test_frozen(void **state) {
   sph_context_destroy(ctx);
 }
 
+/* X is X0 plus a displacement that is mirrored as a velocity: Q u + 2 (u_b.n) n, 2 u_b - u, u. */
+static void check_displacement(int32_t kind) {
+  sph_context *ctx = rh_context(1);
+  rh_system s = rh_make(ctx, 2, SIDE, 0, 3);
+  sph_ghosts_options o;
+  sph_ghosts *g;
+  const double moved[2] = {0.3, -0.2};
+  sph_ghosts_options_init(&o);
+  o.dim = 2;
+  o.position_field = SPH_FIELD_X0;
+  check_ok(sph_ghosts_create(ctx, &o, &g));
+  const gh_frame frame = gh_identity();
+  sph_wall w = gh_wall(&frame, 2, SIDE, 2, kind); /* y = 0 */
+  gh_add(g, &w);
+  for (int a = 0; a < 2; a++) w.point[a] += moved[a];
+  check_ok(sph_ghosts_set_wall(g, 0, &w));
+  double *x = rh_field(&s, SPH_FIELD_X), *x0 = rh_field(&s, SPH_FIELD_X0);
+  for (int64_t k = 0; k < 2 * s.rows; k++) {
+    x0[k] = x[k];
+    x[k] += rh_random(-1.0, 1.0);
+  }
+  check_ok(sph_ghosts_update(g, s.set, 0.0));
+  x = rh_field(&s, SPH_FIELD_X);
+  x0 = rh_field(&s, SPH_FIELD_X0);
+  for (int64_t k = 0; k < sph_ghosts_count(g); k++) {
+    const int64_t i = sph_ghosts_owners(g)[k], j = s.rows + k;
+    const double u[2] = {x[2 * i] - x0[2 * i], x[2 * i + 1] - x0[2 * i + 1]};
+    double want[2] = {u[0], u[1]};
+    if (kind != SPH_WALL_TRACTION) want[1] = 2.0 * moved[1] - u[1];
+    if (kind == SPH_WALL_VELOCITY) want[0] = 2.0 * moved[0] - u[0];
+    assert_true(x0[2 * j] == x0[2 * i] && x0[2 * j + 1] == -x0[2 * i + 1]);
+    for (int a = 0; a < 2; a++) check_close(x[2 * j + a] - x0[2 * j + a], want[a], 1e-14);
+  }
+  sph_ghosts_destroy(g);
+  rh_free(&s);
+  sph_context_destroy(ctx);
+}
+
+static void test_displacements(void **state) {
+  (void)state;
+  check_displacement(SPH_WALL_SLIP);
+  check_displacement(SPH_WALL_VELOCITY);
+  check_displacement(SPH_WALL_TRACTION);
+}
+
+/* A refresh touches what changed only, so that what is kept of a frozen configuration lives on. */
+static void test_touches(void **state) {
+  (void)state;
+  static const int32_t watched[3] = {SPH_FIELD_X, SPH_FIELD_X0, SPH_FIELD_H};
+  sph_context *ctx = rh_context(1);
+  rh_system s = rh_make(ctx, 2, SIDE, 0, 3);
+  const gh_frame frame = gh_identity();
+  sph_ghosts *g = gh_ghosts(&s, 0.0);
+  gh_box(g, &frame, 2, SIDE, SPH_WALL_SLIP);
+  memcpy(rh_field(&s, SPH_FIELD_X0), gh_const(&s, SPH_FIELD_X), (size_t)(2 * s.rows) * 8);
+  check_ok(sph_ghosts_update(g, s.set, 0.0));
+  for (int change = -1; change < 3; change++) { /* nothing, then one field after the other */
+    uint64_t before[3];
+    if (change >= 0) rh_field(&s, watched[change])[0] *= 1.01;
+    for (int k = 0; k < 3; k++) before[k] = sph_particles_revision(s.set, watched[k]);
+    check_ok(sph_ghosts_refresh(g, s.set, 0.0));
+    for (int k = 0; k < 3; k++)
+      assert_int_equal(sph_particles_revision(s.set, watched[k]) > before[k], k == change);
+  }
+  sph_ghosts_destroy(g);
+  rh_free(&s);
+  sph_context_destroy(ctx);
+}
+
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_brute_force),
     cmocka_unit_test(test_infinite_lattice),
@@ -406,5 +475,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_escape),
     cmocka_unit_test(test_recapture),
     cmocka_unit_test(test_frozen),
+    cmocka_unit_test(test_displacements),
+    cmocka_unit_test(test_touches),
 };
 SPH_TEST_MAIN(tests)

@@ -145,6 +145,109 @@ static void test_linear(void **state) {
       if (kind != SPH_WALL_PAIRWISE) check_linear(dim, kind);
 }
 
+/* --- velocity gradients ------------------------------------------------------------------ */
+
+/* v = v0 + L x, linear in all directions, at a TRACTION wall whose rate of traction obeys Hooke's
+ * law: continued linearly. Turned at random. */
+static void check_gradient(int32_t dim) {
+  sph_context *ctx = rh_context(1);
+  rh_system s = rh_make(ctx, dim, SIDE, 0, (uint64_t)(70 + dim));
+  const gh_frame frame = gh_random_frame(dim);
+  double L[9], slope[3] = {0.0}, spread = 0.0, w[3], u[3];
+  gh_turn(&s, &frame);
+  int32_t field;
+  check_ok(sph_particles_add_field(s.set, "L", dim * dim, &field));
+  for (int k = 0; k < 9; k++) L[k] = rh_random(-1.0, 1.0);
+  for (int64_t i = 0; i < s.rows; i++) {
+    memcpy(rh_field(&s, field) + i * dim * dim, L, (size_t)(dim * dim) * sizeof *L);
+    for (int a = 0; a < dim; a++) {
+      rh_field(&s, SPH_FIELD_V)[i * dim + a] = 0.1 * a;
+      for (int b = 0; b < dim; b++)
+        rh_field(&s, SPH_FIELD_V)[i * dim + a] +=
+            L[a * dim + b] * gh_const(&s, SPH_FIELD_X)[i * dim + b];
+    }
+  }
+  /* sdot n = lambda (tr L) n + G (L + L^T) n, lambda = M - 2 G; the traction rate is its negative
+   */
+  for (int a = 0; a < dim; a++) spread += L[a * dim + a];
+  for (int a = 0; a < dim; a++) {
+    for (int b = 0; b < dim; b++) slope[a] += G * (L[a * dim + b] + L[b * dim + a]) * frame.e[0][b];
+    w[a] = (M - 2.0 * G) * spread * frame.e[0][a] + slope[a];
+  }
+  sph_ghosts *g = NULL;
+  sph_ghosts_options o;
+  sph_ghosts_options_init(&o);
+  o.dim = dim;
+  o.gradient_field = field;
+  check_ok(sph_ghosts_create(ctx, &o, &g));
+  sph_wall wall = gh_wall(&frame, dim, SIDE, 0, SPH_WALL_TRACTION);
+  wall.modulus = M;
+  wall.shear_modulus = G;
+  for (int a = 0; a < dim; a++) wall.data.traction_rate[a] = -w[a];
+  gh_add(g, &wall);
+  check_ok(sph_ghosts_update(g, s.set, 0.0));
+  for (int64_t i = s.rows; i < s.rows + sph_ghosts_count(g); i++)
+    for (int a = 0; a < dim; a++) {
+      u[a] = 0.1 * a;
+      for (int b = 0; b < dim; b++) u[a] += L[a * dim + b] * gh_const(&s, SPH_FIELD_X)[i * dim + b];
+      check_close(gh_const(&s, SPH_FIELD_V)[i * dim + a], u[a], 1e-12);
+      for (int b = 0; b < dim; b++)
+        assert_true(gh_const(&s, field)[(i * dim + a) * dim + b] == L[a * dim + b]);
+    }
+  sph_ghosts_destroy(g);
+  rh_free(&s);
+  sph_context_destroy(ctx);
+}
+
+/* Images of a linear velocity field about other walls: their L is that of their velocities. */
+static void check_mirrored_gradient(int32_t kind) {
+  sph_context *ctx = rh_context(1);
+  rh_system s = rh_make(ctx, 3, SIDE, 0, 90);
+  const gh_frame frame = gh_random_frame(3);
+  double L[9];
+  int32_t field;
+  gh_turn(&s, &frame);
+  check_ok(sph_particles_add_field(s.set, "L", 9, &field));
+  for (int k = 0; k < 9; k++) L[k] = rh_random(-1.0, 1.0);
+  for (int64_t i = 0; i < s.rows; i++) {
+    memcpy(rh_field(&s, field) + 9 * i, L, sizeof L);
+    for (int a = 0; a < 3; a++) {
+      rh_field(&s, SPH_FIELD_V)[3 * i + a] = 0.0;
+      for (int b = 0; b < 3; b++)
+        rh_field(&s, SPH_FIELD_V)[3 * i + a] += L[3 * a + b] * gh_const(&s, SPH_FIELD_X)[3 * i + b];
+    }
+  }
+  sph_ghosts *g = NULL;
+  sph_ghosts_options o;
+  sph_ghosts_options_init(&o);
+  o.gradient_field = field;
+  check_ok(sph_ghosts_create(ctx, &o, &g));
+  const sph_wall wall = gh_wall(&frame, 3, SIDE, 4, kind);
+  gh_add(g, &wall);
+  check_ok(sph_ghosts_update(g, s.set, 0.0));
+  const int64_t first = s.rows;
+  for (int64_t i = first + 1; i < first + sph_ghosts_count(g); i++)
+    for (int a = 0; a < 3; a++) {
+      double difference = 0.0;
+      for (int b = 0; b < 3; b++)
+        difference +=
+            gh_const(&s, field)[9 * i + 3 * a + b] *
+            (gh_const(&s, SPH_FIELD_X)[3 * i + b] - gh_const(&s, SPH_FIELD_X)[3 * first + b]);
+      check_close(gh_const(&s, SPH_FIELD_V)[3 * i + a] - gh_const(&s, SPH_FIELD_V)[3 * first + a],
+                  difference, 1e-12);
+    }
+  sph_ghosts_destroy(g);
+  rh_free(&s);
+  sph_context_destroy(ctx);
+}
+
+static void test_gradients(void **state) {
+  (void)state;
+  for (int32_t dim = 1; dim <= 3; dim++) check_gradient(dim);
+  check_mirrored_gradient(SPH_WALL_SLIP);
+  check_mirrored_gradient(SPH_WALL_VELOCITY);
+}
+
 /* --- single values ----------------------------------------------------------------------- */
 
 /* One particle at (1, 0.5) with v = (2, 3), sigma = (5, 7, 11), rho = 2, m = 6, p = 13. */
@@ -298,18 +401,21 @@ static void test_other_fields(void **state) {
   sph_context *ctx = rh_context(1);
   rh_system s = one_particle(ctx);
   sph_ghosts *g = gh_ghosts(&s, 0.0);
-  int32_t plain, vector, tensor, left;
+  int32_t plain, vector, tensor, left, matrix;
   check_ok(sph_particles_add_field(s.set, "plain", 5, &plain));
   check_ok(sph_particles_add_field(s.set, "vector", 2, &vector));
   check_ok(sph_particles_add_field(s.set, "tensor", 3, &tensor));
   check_ok(sph_particles_add_field(s.set, "left", 1, &left));
+  check_ok(sph_particles_add_field(s.set, "matrix", 4, &matrix));
+  check_ok(sph_ghosts_set_mirror(g, matrix, SPH_MIRROR_MATRIX));
   check_ok(sph_ghosts_set_mirror(g, vector, SPH_MIRROR_VECTOR));
   check_ok(sph_ghosts_set_mirror(g, tensor, SPH_MIRROR_TENSOR));
   check_ok(sph_ghosts_set_mirror(g, left, SPH_MIRROR_LEAVE));
   check_ok(sph_ghosts_set_mirror(g, SPH_FIELD_V, SPH_MIRROR_COPY));
-  const int32_t fields[] = {plain,       vector,      tensor,           left,
-                            SPH_FIELD_A, SPH_FIELD_E, SPH_FIELD_SPACING};
-  for (int k = 0; k < 7; k++)
+  const int32_t fields[] = {
+      plain,  vector,     tensor, left, SPH_FIELD_A, SPH_FIELD_E, SPH_FIELD_SPACING,
+      matrix, SPH_FIELD_F};
+  for (int k = 0; k < 9; k++)
     for (int c = 0; c < sph_particles_components(s.set, fields[k]); c++)
       rh_field(&s, fields[k])[c] = 10.0 * k + c + 1.0;
   sph_particles_phases(s.set)[0] = 4;
@@ -324,6 +430,11 @@ static void test_other_fields(void **state) {
   assert_true(gh_const(&s, tensor)[3] == 21.0 && gh_const(&s, tensor)[4] == 22.0);
   assert_true(gh_const(&s, tensor)[5] == -23.0);
   assert_true(gh_const(&s, left)[1] == 0.0);
+  for (int c = 0; c < 4; c++) { /* those with one index across the wall change sign */
+    const double sign = c == 1 || c == 2 ? -1.0 : 1.0;
+    assert_true(gh_const(&s, matrix)[4 + c] == sign * (71.0 + c));
+    assert_true(gh_const(&s, SPH_FIELD_F)[4 + c] == sign * (81.0 + c));
+  }
   assert_true(gh_const(&s, SPH_FIELD_A)[2] == 41.0 && gh_const(&s, SPH_FIELD_A)[3] == -42.0);
   assert_true(gh_const(&s, SPH_FIELD_E)[1] == 51.0 && gh_const(&s, SPH_FIELD_SPACING)[1] == 61.0);
   assert_true(gh_const(&s, SPH_FIELD_C)[1] == gh_const(&s, SPH_FIELD_C)[0]);
@@ -422,9 +533,9 @@ static void test_threads(void **state) {
 }
 
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(test_linear),       cmocka_unit_test(test_single),
-    cmocka_unit_test(test_corner),       cmocka_unit_test(test_turned),
-    cmocka_unit_test(test_other_fields), cmocka_unit_test(test_callbacks),
-    cmocka_unit_test(test_threads),
+    cmocka_unit_test(test_linear),    cmocka_unit_test(test_gradients),
+    cmocka_unit_test(test_single),    cmocka_unit_test(test_corner),
+    cmocka_unit_test(test_turned),    cmocka_unit_test(test_other_fields),
+    cmocka_unit_test(test_callbacks), cmocka_unit_test(test_threads),
 };
 SPH_TEST_MAIN(tests)
