@@ -81,6 +81,7 @@ typedef struct sph_neighbors sph_neighbors;
 typedef struct sph_material sph_material;
 typedef struct sph_rhs sph_rhs;
 typedef struct sph_integrator sph_integrator;
+typedef struct sph_total_lagrangian sph_total_lagrangian;
 
 #ifdef __cplusplus
 }

@@ -231,10 +231,10 @@ SPH_API sph_status sph_xsph(sph_neighbors *list, const sph_kernel *kernel, const
  * Methods Appl. Mech. Engrg. 286 (2015) 87. He (3.27), (3.28) prints a total-Lagrangian form with
  * the Cauchy stress in place of P, which is right for small deformations and rotations only. */
 
-/* F_i = sum V_j (x_j - x_i) (x) g~_ij, computed as 1 + sum V_j (u_j - u_i) (x) g~_ij: the same where
- * B_i has an inverse; where it has none and the plain gradient stands in, a body at rest still has
- * F = 1. Exact for linear deformations. F: rows * dim * dim, F[a * dim + b] = d x_a / d X_b.
- * SPH_ERR_ARG also: x or gradient_matrix NULL. Since 0.1. */
+/* F_i = sum V_j (x_j - x_i) (x) g~_ij, computed as 1 + sum V_j (u_j - u_i) (x) g~_ij: the same
+ * where B_i has an inverse; where it has none and the plain gradient stands in, a body at rest
+ * still has F = 1. Exact for linear deformations. F: rows * dim * dim, F[a * dim + b] = d x_a / d
+ * X_b. SPH_ERR_ARG also: x or gradient_matrix NULL. Since 0.1. */
 SPH_API sph_status sph_deformation_gradient(sph_neighbors *list, const sph_kernel *kernel,
                                             const sph_operands *a, const double *x, double *F);
 
@@ -242,10 +242,10 @@ SPH_API sph_status sph_deformation_gradient(sph_neighbors *list, const sph_kerne
  * psi(F_i). Published with m_j (P_i / rho_i^2 + P_j / rho_j^2), which is the same where the
  * reference density is uniform; where it is not, only the volumes below derive from an energy. */
 enum {
-  SPH_PIOLA_CONSERVATIVE = 1, /* (1/rho_i) sum V_j (P_i B_i^-1 + P_j B_j^-1) g_ij. Momentum is kept to
-                               * rounding; with F of sph_deformation_gradient() and P = d psi / d F
-                               * the force is minus the gradient of sum V_i psi(F_i), so that energy
-                               * and, for objective psi, angular momentum are kept too */
+  SPH_PIOLA_CONSERVATIVE = 1, /* (1/rho_i) sum V_j (P_i B_i^-1 + P_j B_j^-1) g_ij. Momentum is kept
+                               * to rounding; with F of sph_deformation_gradient() and P = d psi / d
+                               * F the force is minus the gradient of sum V_i psi(F_i), so that
+                               * energy and, for objective psi, angular momentum are kept too */
   SPH_PIOLA_SUMMED = 2        /* (1/rho_i) sum V_j (P_i + P_j) g~_ij. Where gradient_matrix is NULL:
                                * g_ij, and momentum is kept; else exact in the interior for linear
                                * P. Neither derives from an energy */

@@ -26,17 +26,17 @@ extern "C" {
 /* Built-in fields. X always exists; the others come to be, zero-filled, at first request. Ids
  * from 64 on are the host's, handed out by sph_particles_add_field(). */
 enum {
-  SPH_FIELD_X = 0,       /* position, dim */
-  SPH_FIELD_V = 1,       /* velocity, dim */
-  SPH_FIELD_M = 2,       /* mass, 1 */
-  SPH_FIELD_RHO = 3,     /* density, 1 */
-  SPH_FIELD_H = 4,       /* smoothing length, 1 */
-  SPH_FIELD_P = 5,       /* pressure, 1 */
-  SPH_FIELD_C = 6,       /* sound speed, 1 */
-  SPH_FIELD_E = 7,       /* specific internal energy, 1 */
-  SPH_FIELD_SIGMA = 8,   /* Cauchy stress, packed symmetric */
-  SPH_FIELD_X0 = 9,      /* reference position, dim */
-  SPH_FIELD_A = 10,      /* acceleration, dim */
+  SPH_FIELD_X = 0,        /* position, dim */
+  SPH_FIELD_V = 1,        /* velocity, dim */
+  SPH_FIELD_M = 2,        /* mass, 1 */
+  SPH_FIELD_RHO = 3,      /* density, 1 */
+  SPH_FIELD_H = 4,        /* smoothing length, 1 */
+  SPH_FIELD_P = 5,        /* pressure, 1 */
+  SPH_FIELD_C = 6,        /* sound speed, 1 */
+  SPH_FIELD_E = 7,        /* specific internal energy, 1 */
+  SPH_FIELD_SIGMA = 8,    /* Cauchy stress, packed symmetric */
+  SPH_FIELD_X0 = 9,       /* reference position, dim */
+  SPH_FIELD_A = 10,       /* acceleration, dim */
   SPH_FIELD_SPACING = 11, /* initial particle spacing, 1 */
   SPH_FIELD_F = 12,       /* deformation gradient dx/dX, dim * dim, row-major */
   SPH_FIELD_PK = 13       /* first Piola-Kirchhoff stress, dim * dim, row-major */

@@ -154,7 +154,8 @@ SPH_API void sph_rhs_destroy(sph_rhs *rhs);
 
 /* Append a term; copied. Each kind may come once. SPH_ERR_ARG: unknown kind or form, a parameter
  * not finite or out of range, twice the same kind, `corrected` on a term that cannot be, a
- * total-Lagrangian term or form without position_field X0. SPH_ERR_VERSION. The list of terms is as before then. Since 0.1. */
+ * total-Lagrangian term or form without position_field X0. SPH_ERR_VERSION. The list of terms is as
+ * before then. Since 0.1. */
 SPH_API sph_status sph_rhs_add(sph_rhs *rhs, const sph_term *term);
 
 /* Append a host's own term that adds to the rate of `field`, which the set must have when it is
@@ -181,18 +182,26 @@ SPH_API sph_status sph_rhs_set_finish(sph_rhs *rhs, sph_rhs_hook fn, void *user)
  *
  * SPH_ERR_ARG: a rate array NULL, a field twice or unknown, a field that the terms need and that
  * the set lacks (named), a kernel or list that does not fit. SPH_ERR_STATE: SPH_TERM_STRESS_RATE
- * or SPH_TERM_FIRST_PIOLA for a phase whose material has no such law, a hook that changed the number of real particles, a list never
- * built and not to be updated. SPH_ERR_STALE: a list that is not to be updated and holds no more.
- * SPH_RETRY, SPH_ERR_CALLBACK: from hooks and materials. SPH_ERR_NUMERIC: a deformation gradient
- * outside the range of its material (the particle is named). SPH_ERR_NOMEM; and what
- * sph_neighbors_update() answers. After a failure the rate arrays are undefined, the set is as the
- * hooks left it.
+ * or SPH_TERM_FIRST_PIOLA for a phase whose material has no such law, a hook that changed the
+ * number of real particles, a list never built and not to be updated. SPH_ERR_STALE: a list that is
+ * not to be updated and holds no more. SPH_RETRY, SPH_ERR_CALLBACK: from hooks and materials.
+ * SPH_ERR_NUMERIC: a deformation gradient outside the range of its material (the particle is
+ * named). SPH_ERR_NOMEM; and what sph_neighbors_update() answers. After a failure the rate arrays
+ * are undefined, the set is as the hooks left it.
  *
  * O(pairs). A steady call allocates nothing; rhs keeps what its terms need between sweeps: 8 dim^2
  * bytes a particle each for gradient matrices and for velocity gradients, and for total-Lagrangian
  * terms 8 bytes a stored pair (16 with CENTRAL) and at most 256 bytes a particle. Since 0.1. */
 SPH_API sph_status sph_rhs_evaluate(sph_rhs *rhs, sph_particles *set, sph_neighbors *list, double t,
                                     const sph_rate *rates, int32_t count);
+
+/* Strain energy per undeformed volume of the real particles, by the materials of their phases, from
+ * the deformation gradients (field F) that the last evaluation with SPH_TERM_FIRST_PIOLA left; the
+ * energy of a body is sum M / RHO times it. energy: real_count, the host's. Writes the field PK,
+ * with the same values. O(n). SPH_ERR_ARG: energy NULL. SPH_ERR_STATE: no such evaluation, or a
+ * phase without a law for P. SPH_RETRY, SPH_ERR_CALLBACK, SPH_ERR_NUMERIC: from materials; energy
+ * is undefined then. Since 0.1. */
+SPH_API sph_status sph_rhs_strain_energy(sph_rhs *rhs, sph_particles *set, double *energy);
 
 #ifdef __cplusplus
 }

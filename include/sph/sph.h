@@ -20,6 +20,7 @@
 #include <sph/particles.h>
 #include <sph/plasticity.h>
 #include <sph/rhs.h>
+#include <sph/total_lagrangian.h>
 #include <sph/stress.h>
 #include <sph/stress_points.h>
 

@@ -7,11 +7,15 @@
 
 int32_t sphi_term_field(int32_t kind) {
   switch (kind) {
-    case SPH_TERM_CONTINUITY: return SPH_FIELD_RHO;
-    case SPH_TERM_STRESS_RATE: return SPH_FIELD_SIGMA;
-    case SPH_TERM_XSPH:
-    case SPH_TERM_MOTION: return SPH_FIELD_X;
-    default: return SPH_FIELD_V;
+  case SPH_TERM_CONTINUITY:
+    return SPH_FIELD_RHO;
+  case SPH_TERM_STRESS_RATE:
+    return SPH_FIELD_SIGMA;
+  case SPH_TERM_XSPH:
+  case SPH_TERM_MOTION:
+    return SPH_FIELD_X;
+  default:
+    return SPH_FIELD_V;
   }
 }
 
@@ -84,8 +88,8 @@ static sph_status check_fields(sphi_evaluation *e) {
     const sph_term *t = &e->rhs->terms[k];
     if (!sphi_term_wanted(e, k)) continue;
     int velocity = k == SPH_TERM_CONTINUITY || k == SPH_TERM_STRESS_RATE ||
-                   k == SPH_TERM_MONAGHAN || k == SPH_TERM_BULK_VISCOSITY ||
-                   k == SPH_TERM_XSPH || k == SPH_TERM_MOTION;
+                   k == SPH_TERM_MONAGHAN || k == SPH_TERM_BULK_VISCOSITY || k == SPH_TERM_XSPH ||
+                   k == SPH_TERM_MOTION;
     int sums = k != SPH_TERM_BODY_FORCE && k != SPH_TERM_MOTION;
     int stress = k == SPH_TERM_STRESS || k == SPH_TERM_ARTIFICIAL_STRESS;
     if (velocity) s = require(e, a->v, SPH_FIELD_V, k);
@@ -153,8 +157,7 @@ static sph_status gather(sphi_evaluation *e) {
 static void clear_rates(sphi_evaluation *e) {
   for (int32_t k = 0; k < e->count; ++k) {
     int32_t c = sph_particles_components(e->set, e->rates[k].field);
-    if (e->rows > 0)
-      memset(e->rates[k].values, 0, (size_t)e->rows * (size_t)c * sizeof(double));
+    if (e->rows > 0) memset(e->rates[k].values, 0, (size_t)e->rows * (size_t)c * sizeof(double));
   }
 }
 

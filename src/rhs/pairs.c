@@ -63,8 +63,7 @@ sph_status sphi_rhs_matrices(sphi_evaluation *e) {
       s = sphi_gradient_matrices(e->list, e->rhs->kernel, &all, scratch(e, SPHI_RHS_MATRIX), NULL);
   }
   if (s) return s;
-  if (e->rhs->options.position_field == SPH_FIELD_X0)
-    e->rhs->frozen_has |= SPHI_FROZEN_HAS_MATRIX;
+  if (e->rhs->options.position_field == SPH_FIELD_X0) e->rhs->frozen_has |= SPHI_FROZEN_HAS_MATRIX;
   e->a.gradient_matrix = scratch(e, SPHI_RHS_MATRIX);
   return SPH_OK;
 }

@@ -13,6 +13,7 @@ typedef struct law_job {
   int32_t property;
   const int32_t *phase;
   double *out;
+  double *energy; /* FIRST_PIOLA: may be NULL */
   int64_t failed;
   sph_status status; /* of a rerun of the failing run, on the calling thread */
 } law_job;
@@ -49,7 +50,8 @@ static sph_status run_law(const law_job *j, int64_t lo, int64_t hi) {
     return sphi_material_stress_rate_quiet(m, &b, j->out + lo * sph_sym_components(b.dim));
   if (j->property == SPHI_MATERIAL_FIRST_PIOLA)
     return sphi_material_first_piola_quiet(m, b.dim, b.n, b.deformation_gradient,
-                                           j->out + lo * b.dim * b.dim, NULL);
+                                           j->out + lo * b.dim * b.dim,
+                                           j->energy ? j->energy + lo : NULL);
   return sphi_material_pressure_quiet(m, &b, j->out + lo);
 }
 
@@ -108,9 +110,7 @@ int sphi_rhs_has_pressure_law(const sph_rhs *rhs) {
 }
 
 sph_status sphi_rhs_pressures(sphi_evaluation *e) {
-  law_job j = {.e = e,
-               .property = SPHI_MATERIAL_PRESSURE,
-               .phase = sphi_particles_phases(e->set)};
+  law_job j = {.e = e, .property = SPHI_MATERIAL_PRESSURE, .phase = sphi_particles_phases(e->set)};
   if (!sphi_rhs_has_pressure_law(e->rhs) || e->rows == 0) return SPH_OK;
   sph_status s = sph_particles_field(e->set, SPH_FIELD_P, &j.out);
   if (s) return s;
@@ -136,6 +136,35 @@ sph_status sphi_rhs_first_piola(sphi_evaluation *e) {
                .out = e->P};
   sph_status s = check_laws(&j, e->a.n, 1);
   return s ? s : run_laws(&j, e->a.n);
+}
+
+static sph_status check_energy_call(sph_rhs *rhs, sph_particles *set, const double *energy) {
+  sph_status s = sphi_check_handle(NULL, rhs, SPHI_MAGIC_RHS, "rhs");
+  if (!s) s = sphi_check_handle(rhs->base.ctx, set, SPHI_MAGIC_PARTICLES, "set");
+  if (s) return s;
+  if (!energy) return sphi_fail(rhs->base.ctx, SPH_ERR_ARG, "sph_rhs_strain_energy: NULL array");
+  if (!sph_particles_field_const(set, SPH_FIELD_F) || !sph_particles_field_const(set, SPH_FIELD_PK))
+    return sphi_fail(
+        rhs->base.ctx, SPH_ERR_STATE,
+        "sph_rhs_strain_energy: no term SPH_TERM_FIRST_PIOLA was evaluated on the set");
+  return SPH_OK;
+}
+
+sph_status sph_rhs_strain_energy(sph_rhs *rhs, sph_particles *set, double *energy) {
+  sph_status s = check_energy_call(rhs, set, energy);
+  if (s) return s;
+  sphi_evaluation e = {.rhs = rhs, .set = set, .dim = sph_particles_dim(set)};
+  s = sph_operands_from_set(set, &e.a);
+  if (!s) s = sph_particles_field(set, SPH_FIELD_F, &e.F);
+  if (!s) s = sph_particles_field(set, SPH_FIELD_PK, &e.P);
+  if (s) return s;
+  law_job j = {.e = &e,
+               .property = SPHI_MATERIAL_FIRST_PIOLA,
+               .phase = sphi_particles_phases(set),
+               .out = e.P,
+               .energy = energy};
+  s = check_laws(&j, e.a.rows, 1);
+  return s ? s : run_laws(&j, e.a.rows);
 }
 
 static void point_range(void *job, int64_t lo, int64_t hi, int32_t worker) {

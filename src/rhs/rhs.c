@@ -5,9 +5,8 @@
 #include <string.h>
 
 void sph_rhs_options_init_sized(sph_rhs_options *options, size_t size) {
-  sph_rhs_options defaults = {.size = sizeof defaults,
-                              .position_field = SPH_FIELD_X,
-                              .update_list = 1};
+  sph_rhs_options defaults = {
+      .size = sizeof defaults, .position_field = SPH_FIELD_X, .update_list = 1};
   if (!options || size < sizeof(size_t)) return;
   memset(options, 0, size);
   memcpy(options, &defaults, size < sizeof defaults ? size : sizeof defaults);
@@ -69,14 +68,22 @@ void sph_rhs_destroy(sph_rhs *rhs) {
 /* Largest form of a kind; 0 where it has none. */
 static int32_t last_form(int32_t kind) {
   switch (kind) {
-    case SPH_TERM_CONTINUITY: return SPH_CONTINUITY_NUMBER;
-    case SPH_TERM_PRESSURE: return SPH_PRESSURE_DIFFERENCE;
-    case SPH_TERM_STRESS: return SPH_STRESS_CONSERVATIVE;
-    case SPH_TERM_STRESS_RATE: return SPH_STRESS_RATE_LAGRANGIAN;
-    case SPH_TERM_MONAGHAN: return SPH_MONAGHAN_CURRENT;
-    case SPH_TERM_FIRST_PIOLA: return SPH_PIOLA_SUMMED;
-    case SPH_TERM_HOURGLASS: return SPH_HOURGLASS_CENTRAL;
-    default: return 0;
+  case SPH_TERM_CONTINUITY:
+    return SPH_CONTINUITY_NUMBER;
+  case SPH_TERM_PRESSURE:
+    return SPH_PRESSURE_DIFFERENCE;
+  case SPH_TERM_STRESS:
+    return SPH_STRESS_CONSERVATIVE;
+  case SPH_TERM_STRESS_RATE:
+    return SPH_STRESS_RATE_LAGRANGIAN;
+  case SPH_TERM_MONAGHAN:
+    return SPH_MONAGHAN_CURRENT;
+  case SPH_TERM_FIRST_PIOLA:
+    return SPH_PIOLA_SUMMED;
+  case SPH_TERM_HOURGLASS:
+    return SPH_HOURGLASS_CENTRAL;
+  default:
+    return 0;
   }
 }
 
@@ -97,9 +104,9 @@ static int has_spacing(const sph_kernel *kernel, double ratio) {
 }
 
 static sph_status check_numbers(sph_context *ctx, const sph_kernel *kernel, const sph_term *t) {
-  if (!isfinite(t->alpha) || !isfinite(t->beta) || !isfinite(t->epsilon) ||
-      !isfinite(t->neumann) || !isfinite(t->linear) || !isfinite(t->spacing) ||
-      !isfinite(t->vector[0]) || !isfinite(t->vector[1]) || !isfinite(t->vector[2]))
+  if (!isfinite(t->alpha) || !isfinite(t->beta) || !isfinite(t->epsilon) || !isfinite(t->neumann) ||
+      !isfinite(t->linear) || !isfinite(t->spacing) || !isfinite(t->vector[0]) ||
+      !isfinite(t->vector[1]) || !isfinite(t->vector[2]))
     return sphi_fail(ctx, SPH_ERR_ARG, "sph_rhs_add: a parameter of term %d is not finite",
                      t->kind);
   if (t->kind == SPH_TERM_HOURGLASS && t->alpha < 0.0)

@@ -17,6 +17,7 @@ typedef enum kind {
   GHOSTS,
   HOLD,
   POINTS,
+  TOTAL_LAGRANGIAN,
   KINDS
 } kind;
 
@@ -30,8 +31,13 @@ static struct {
   sph_ghosts *ghosts;
   sph_hold *hold;
   sph_stress_points *points;
+  sph_total_lagrangian *tl;
+  sph_material *rubber;
+  sph_total_lagrangian_options tl_options;
+  sph_total_lagrangian_energies energies;
+  sph_hyperelastic_options hyper;
   sph_wall wall;
-  sph_operands a;
+  sph_operands a, frozen; /* the second one with a gradient matrix */
   sph_material_block block;
   sph_material_functions law;
   sph_hooke_options hooke;
@@ -127,13 +133,25 @@ static void open_all(void) {
   g.ghosts = make_ghosts(ctx);
   check_ok(sph_hold_create(ctx, &g.hold));
   check_ok(sph_stress_points_create(ctx, g.s.kernel, g.s.list, NULL, &g.points));
-  void *all[KINDS] = {ctx,   g.s.set, g.s.kernel, g.s.list, g.material,
-                      g.rhs, g.it,    g.ghosts,   g.hold,   g.points};
+  g.frozen = g.a;
+  g.frozen.gradient_matrix = g.in;
+  sph_hyperelastic_options_init(&g.hyper);
+  g.hyper.young = g.hyper.density = 1.0;
+  g.hyper.reduction = SPH_UNIAXIAL_STRESS;
+  check_ok(sph_material_create_hyperelastic(ctx, &g.hyper, &g.rubber));
+  sph_total_lagrangian_options_init(&g.tl_options);
+  g.tl_options.dim = 1;
+  check_ok(sph_total_lagrangian_create(ctx, &g.tl_options, g.rubber, &g.tl));
+  g.energies.size = sizeof g.energies;
+  void *all[KINDS] = {ctx,  g.s.set,  g.s.kernel, g.s.list, g.material, g.rhs,
+                      g.it, g.ghosts, g.hold,     g.points, g.tl};
   memcpy(g.handle, all, sizeof all);
 }
 
 static void close_all(void) {
   sph_context *ctx = g.s.ctx;
+  sph_total_lagrangian_destroy(g.tl);
+  sph_material_destroy(g.rubber);
   sph_stress_points_destroy(g.points);
   sph_hold_destroy(g.hold);
   sph_ghosts_destroy(g.ghosts);
@@ -149,6 +167,8 @@ static void close_all(void) {
 #define W g.s.kernel
 #define CTX g.s.ctx
 #define MADE (void *)&g.made
+
+#define SPRINGS(h, w, x, F, o) sph_hourglass_force(h, w, &g.frozen, 1, 0.1, x, F, o, NULL)
 
 /* name, kind of the handle h, call: SPH_ERR_ARG for NULL, SPH_ERR_HANDLE for the other kinds. */
 #define HANDLE_CALLS(X)                                                                    \
@@ -213,6 +233,24 @@ static void close_all(void) {
   X(shepard_w, KERNEL, sph_shepard_sum(LIST, h, &g.a, g.out))                              \
   X(matrix, NEIGHBORS, sph_gradient_matrix(h, W, &g.a, g.out, NULL, NULL))                 \
   X(matrix_w, KERNEL, sph_gradient_matrix(LIST, h, &g.a, g.out, NULL, NULL))               \
+  X(def, NEIGHBORS, sph_deformation_gradient(h, W, &g.frozen, g.in, g.out))                \
+  X(def_w, KERNEL, sph_deformation_gradient(LIST, h, &g.frozen, g.in, g.out))              \
+  X(piola, NEIGHBORS, sph_piola_divergence(h, W, &g.frozen, 1, g.in, g.out))               \
+  X(piola_w, KERNEL, sph_piola_divergence(LIST, h, &g.frozen, 1, g.in, g.out))             \
+  X(springs, NEIGHBORS, SPRINGS(h, W, g.in, g.in, g.out))                                  \
+  X(springs_w, KERNEL, SPRINGS(LIST, h, g.in, g.in, g.out))                                \
+  X(tl_new, CONTEXT, sph_total_lagrangian_create(h, &g.tl_options, g.rubber, MADE))        \
+  X(tl_new_law, MATERIAL, sph_total_lagrangian_create(CTX, &g.tl_options, h, MADE))        \
+  X(tl_start, TOTAL_LAGRANGIAN, sph_total_lagrangian_start(h, SET))                        \
+  X(tl_start_set, PARTICLES, sph_total_lagrangian_start(g.tl, h))                          \
+  X(tl_dt, TOTAL_LAGRANGIAN, sph_total_lagrangian_time_step(h, SET, g.out))                \
+  X(tl_dt_set, PARTICLES, sph_total_lagrangian_time_step(g.tl, h, g.out))                  \
+  X(tl_step, TOTAL_LAGRANGIAN, sph_total_lagrangian_step(h, SET, 0.0, 1.0))                \
+  X(tl_step_set, PARTICLES, sph_total_lagrangian_step(g.tl, h, 0.0, 1.0))                  \
+  X(tl_energy, TOTAL_LAGRANGIAN, sph_total_lagrangian_energy(h, SET, 0.0, &g.energies))    \
+  X(tl_energy_set, PARTICLES, sph_total_lagrangian_energy(g.tl, h, 0.0, &g.energies))      \
+  X(psi, RHS, sph_rhs_strain_energy(h, SET, g.out))                                        \
+  X(psi_set, PARTICLES, sph_rhs_strain_energy(g.rhs, h, g.out))                            \
   X(rhs_add, RHS, sph_rhs_add(h, &g.term))                                                 \
   X(rhs_host, RHS, sph_rhs_add_host(h, SPH_FIELD_V, pair_fn, NULL))                        \
   X(rhs_material, RHS, sph_rhs_set_material(h, 0, g.material))                             \
@@ -323,6 +361,7 @@ static void test_handles(void **state) {
 #define XSPH(a, o) sph_xsph(LIST, W, a, 0.5, o)
 #define SHEPARD(a, o) sph_shepard_sum(LIST, W, a, o)
 #define MATRIX(a, o) sph_gradient_matrix(LIST, W, a, o, NULL, NULL)
+#define NEW_SCHEME(o, made) sph_total_lagrangian_create(CTX, o, g.rubber, made)
 #define OPERATOR_NULLS(X, f) X(f(NULL, g.out)) X(f(&g.a, NULL))
 #define POINTER_CALLS(X)                                            \
   X(sph_context_create(NULL, NULL))                                 \
@@ -378,6 +417,18 @@ static void test_handles(void **state) {
   X(sph_viscosity_bulk(LIST, W, &g.a, NULL, NULL, g.out))           \
   X(sph_artificial_stress(1, 1, NULL, NULL, 1.0, 0.3, g.out))       \
   X(sph_artificial_stress(1, 1, g.in, NULL, 1.0, 0.3, NULL))        \
+  X(sph_deformation_gradient(LIST, W, NULL, g.in, g.out))           \
+  X(sph_deformation_gradient(LIST, W, &g.frozen, NULL, g.out))      \
+  X(sph_deformation_gradient(LIST, W, &g.frozen, g.in, NULL))       \
+  X(sph_piola_divergence(LIST, W, NULL, 1, g.in, g.out))            \
+  X(sph_piola_divergence(LIST, W, &g.frozen, 1, NULL, g.out))       \
+  X(sph_piola_divergence(LIST, W, &g.frozen, 1, g.in, NULL))        \
+  X(SPRINGS(LIST, W, NULL, g.in, g.out))                            \
+  X(SPRINGS(LIST, W, g.in, NULL, g.out))                            \
+  X(SPRINGS(LIST, W, g.in, g.in, NULL))                             \
+  X(NEW_SCHEME(NULL, MADE))                                         \
+  X(NEW_SCHEME(&g.tl_options, NULL))                                \
+  X(sph_rhs_strain_energy(g.rhs, SET, NULL))                        \
   X(sph_rhs_create(CTX, W, NULL, NULL))                             \
   X(sph_rhs_add(g.rhs, NULL))                                       \
   X(sph_rhs_add_host(g.rhs, SPH_FIELD_V, NULL, NULL))               \
@@ -492,6 +543,10 @@ static void check_getters(void *h, kind not_this) {
     assert_null(sph_stress_points_offsets(h));
     assert_null(sph_stress_points_stresses(h));
   }
+  if (not_this != TOTAL_LAGRANGIAN) {
+    assert_null(sph_total_lagrangian_rhs(h));
+    assert_null(sph_total_lagrangian_list(h));
+  }
 }
 
 /* What cannot answer a status answers its nothing; destroying another kind leaves it alone. */
@@ -506,6 +561,7 @@ static void check_destroyers(void *h, kind not_this) {
   if (not_this != GHOSTS) sph_ghosts_destroy(h);
   if (not_this != HOLD) sph_hold_destroy(h);
   if (not_this != POINTS) sph_stress_points_destroy(h);
+  if (not_this != TOTAL_LAGRANGIAN) sph_total_lagrangian_destroy(h);
 }
 
 static void test_getters(void **state) {
@@ -554,6 +610,7 @@ static void test_inits(void **state) {
   TRY(sph_wall_init_sized)
   TRY(sph_ghosts_options_init_sized)
   TRY(sph_stress_points_options_init_sized)
+  TRY(sph_total_lagrangian_options_init_sized)
 #undef TRY
   for (int k = 0; k < 4; k++) assert_int_equal(small.bytes[k], 0xaa);
 }
