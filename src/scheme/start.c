@@ -36,7 +36,7 @@ static sph_status bind(sph_elastodynamics *solid) {
     s = sph_integrator_bind_field(it, SPH_FIELD_H);
     ++items;
   }
-  solid->ledger_item = -1 - items;
+  solid->ledger_item = solid->options.audit ? -1 - items : 0; /* 0 is no array's */
   if (!s && solid->options.audit)
     s = sph_integrator_bind_array(it, solid->integral, SPHI_INTEGRALS);
   return s ? s : sph_integrator_set_function(it, sphi_scheme_evaluate, solid);
