@@ -70,6 +70,7 @@ BENCH_FN double bench_median(double *v, int n) {
 /* Seconds of one call. */
 typedef struct bench_time {
   double wall, best, cpu; /* median, fastest, median of processor time */
+  double pairs;           /* of one call, where a caller notes it */
 } bench_time;
 
 typedef void (*bench_fn)(void *user);
@@ -87,7 +88,7 @@ BENCH_FN bench_time bench_measure(bench_fn fn, void *user, int repetitions) {
     wall[r] = (bench_now() - t) / calls;
     cpu[r] = (bench_cpu() - c) / calls;
   }
-  bench_time t = {bench_median(wall, repetitions), 0.0, bench_median(cpu, repetitions)};
+  bench_time t = {bench_median(wall, repetitions), 0.0, bench_median(cpu, repetitions), 0.0};
   t.best = wall[0];
   return t;
 }
