@@ -198,6 +198,26 @@ BENCH_FN void bench_pool_stop(bench_pool *p) {
   pthread_mutex_destroy(&p->lock);
 }
 
+/* --- a host's loop that takes notes ------------------------------------------------------- */
+
+/* Runs every loop of the library on the calling thread and keeps its processor time, so that a call
+ * can be taken apart without a look inside. */
+enum { BENCH_LOOPS = 64 };
+typedef struct bench_notes {
+  int32_t count;
+  double seconds[BENCH_LOOPS];
+} bench_notes;
+
+/* The sph_parallel_for_fn. */
+BENCH_FN void bench_noted_for(void *user, int64_t count, int64_t grain, sph_loop_fn body,
+                              void *job) {
+  bench_notes *notes = user;
+  double begin = bench_cpu();
+  (void)grain;
+  body(job, 0, count, 0);
+  if (notes->count < BENCH_LOOPS) notes->seconds[notes->count++] = bench_cpu() - begin;
+}
+
 /* --- lines -------------------------------------------------------------------------------- */
 
 typedef struct bench_line {

@@ -96,6 +96,13 @@ static int measure(const setup *s, const double *x, const double *h, int64_t n, 
   return failed;
 }
 
+/* Every instruction set for the first case only, unless asked for. */
+static int wants_isa(const setup *s, int32_t isa) {
+  int usual = s->dim == 3 && s->neighbours == 74 && s->ratio == 1 && !s->shuffled;
+  return sph_isa_available(isa) && bench_wants_isa(&args, isa) &&
+         (usual || args.longer || args.only);
+}
+
 static int run(const setup *s) {
   size_t n = (size_t)s->n + 2000;
   double *x = malloc(n * (size_t)s->dim * 2 * sizeof *x), *h = malloc(n * 2 * sizeof *h);
@@ -106,7 +113,7 @@ static int run(const setup *s) {
     lengths(s, x, h, count);
     int32_t best = bench_best_isa(), threads = bench_threads(&args);
     for (int32_t isa = best; isa >= SPH_ISA_PORTABLE && !failed; isa--) {
-      if (isa != best && !(sph_isa_available(isa) && bench_wants_isa(&args, isa))) continue;
+      if (isa != best && !wants_isa(s, isa)) continue;
       failed = measure(s, x, h, count, isa, 1);
       if (!failed && bench_wants_threads(&args)) failed = measure(s, x, h, count, isa, threads);
     }
