@@ -8,6 +8,8 @@
 #include "bench_machine.h"
 #include "bench_scalar.h"
 
+#include <sys/resource.h>
+
 enum { PART = 4 };
 
 static bench_args args;
@@ -278,9 +280,24 @@ static void run_dimension(int32_t dim, int64_t n) {
     run_orders(&u, &scalar, best);
 }
 
-/* The same number of neighbours at every size. */
+/* Largest memory of the process so far, all sets and the benchmark's own arrays included. */
+static double resident_gib(void) {
+  struct rusage u;
+  return getrusage(RUSAGE_SELF, &u) == 0 ? (double)u.ru_maxrss / 1048576.0 : 0.0;
+}
+
+static void print_size(int which, int64_t n, bench_time each, bench_time first) {
+  if (!wanted(which)) return;
+  printf("BENCH case=scaling of=%s dim=3 n=%lld ns_per_particle=%.2f cpu_ns_per_particle=%.2f "
+         "times_first=%.3f by_cpu=%.3f resident_gib=%.2f\n",
+         bench_case[which].name, (long long)n, each.best * 1e9, each.cpu * 1e9,
+         each.best / first.best, each.cpu / first.cpu, resident_gib());
+  fflush(stdout);
+}
+
+/* The same number of neighbours at every size: time of a particle against that of the smallest. */
 static void run_scaling(void) {
-  bench_time low[2], high[2];
+  bench_time first[2];
   for (int64_t n = 10000; n <= (args.longer ? 10000000 : 1000000); n *= 10) {
     bench_time t[BENCH_CASES];
     bench_setup u = {.dim = 3, .n = n, .threads = 1, .isa = bench_best_isa()};
@@ -288,14 +305,11 @@ static void run_scaling(void) {
     u.h = bench_tune(3, n, neighbours_of(3));
     run_cases(&u, 2, NULL, t);
     for (int k = 0; k < 2; k++) {
-      if (!wanted(k)) continue;
       bench_time each = {t[k].wall / count, t[k].best / count, t[k].cpu / count, 0.0};
-      if (n == 10000) low[k] = high[k] = each;
-      if (each.cpu < low[k].cpu) low[k] = each;
-      if (each.cpu > high[k].cpu) high[k] = each;
+      if (n == 10000) first[k] = each;
+      print_size(k, (int64_t)count, each, first[k]);
     }
   }
-  for (int k = 0; k < 2; k++) ratio("scaling_time", 3, k, high[k], low[k], 1);
 }
 
 int main(int argc, char **argv) {
@@ -303,8 +317,9 @@ int main(int argc, char **argv) {
   args = bench_read_args(argc, argv);
   for (int k = 0; k < BENCH_CASES; k++) any |= wanted(k);
   if (!any) return 0;
-  for (int32_t dim = 3; dim >= 1; dim--)
+  for (int32_t dim = 3; dim >= 1 && !args.scaling; dim--)
     if (bench_wants_dim(&args, dim)) run_dimension(dim, args.n ? args.n : 1000000);
-  if (args.n == 0 && bench_wants_variants(&args)) run_scaling();
+  if (args.scaling || (args.n == 0 && bench_wants_dim(&args, 3) && bench_wants_variants(&args)))
+    run_scaling();
   return 0;
 }
