@@ -3,6 +3,7 @@
 # Variables: CC CFLAGS LDFLAGS PREFIX DESTDIR V=1 WERROR=1
 #   BUILD=build-x    another build folder; libraries then go to build-x/lib instead of lib
 #   FOLDERS="core kernel"   only these folders of src (needs its own BUILD)
+#   SKIP="rkc"              not these
 #   TESTS="core kernel"     only tests/*/test_core.c and tests/*/test_kernel.c
 #   CASE=name               only this validation case
 #   CMOCKA=0                the built-in harness even where cmocka is installed
@@ -91,7 +92,8 @@ endif
 MAP := $(if $(FOLDERS),$(BUILD)/libsph.map,$(or $(wildcard lib/libsph.map),$(BUILD)/libsph.map))
 OBJ := $(SRC:%.c=$(BUILD)/%.o)
 
-pick = $(if $(TESTS),$(filter $(foreach t,$(TESTS),%/test_$(t).c %/test_$(t).cpp),$(1)),$(1))
+named = $(foreach t,$(1),%/test_$(t).c %/test_$(t).cpp)
+pick = $(filter-out $(call named,$(SKIP)),$(if $(TESTS),$(filter $(call named,$(TESTS)),$(1)),$(1)))
 UNIT := $(call pick,$(sort $(wildcard tests/unit/test_*.c)))
 API := $(call pick,$(sort $(wildcard tests/api/test_*.c)))
 API_CXX := $(call pick,$(sort $(wildcard tests/api/test_*.cpp)))
@@ -108,8 +110,8 @@ ALL_BIN := $(UNIT_BIN) $(API_BIN) $(BENCH_BIN) $(EXAMPLE_BIN) $(CASE_BIN)
 HEADERS := $(sort $(wildcard include/sph/*.h))
 
 .PHONY: all lib examples tests demo check check-long validate validate-long bench symbols \
-  check-headers check-symbols check-layers check-readme check-abi record-abi check-asan check-tsan check-aarch64 \
-  check-valgrind check-install format check-format install uninstall clean help FORCE
+  check-headers check-symbols check-layers check-readme check-abi record-abi check-asan check-tsan \
+  check-aarch64 check-valgrind check-install format check-format install uninstall clean help FORCE
 .DELETE_ON_ERROR:
 .SECONDARY:
 
@@ -238,9 +240,13 @@ SANITIZE = $(MAKE) BUILD='$(BUILD)-$(1)' CFLAGS='-O1 -g -fno-omit-frame-pointer 
   LDFLAGS='$(2)' WRAP='$(NO_ASLR)' TIMEOUT=1200
 
 check-asan:
-	+@$(call SANITIZE,asan,-fsanitize=address$(comma)undefined -fno-sanitize-recover=all) check
+	+@$(call SANITIZE,asan,-fsanitize=address$(comma)undefined -fno-sanitize-recover=all) \
+	  TEST_ARGS=short check
+# Programs that start no second thread have nothing to show here.
+ONE_THREAD := integrate integrate_power kernel kernel_api material_api neighbors_api \
+  operators_errors operators_properties particles_api rkc
 check-tsan:
-	+@$(call SANITIZE,tsan,-fsanitize=thread) check
+	+@$(call SANITIZE,tsan,-fsanitize=thread) SKIP='$(ONE_THREAD) $(SKIP)' TEST_ARGS=short check
 comma := ,
 export WRAP TIMEOUT
 
@@ -253,8 +259,10 @@ check-aarch64:
 	@test -e /usr/$(CROSS)/include/stdio.h || \
 	  { echo 'the C library is missing: install the Debian package libc6-dev-arm64-cross'; exit 1; }
 	+@$(MAKE) BUILD='$(BUILD)-aarch64' CC='$(CROSS)-gcc' CXX='$(CROSS)-g++' AR='$(CROSS)-ar' \
-	  CFLAGS='-O2 -g -DSPHI_FEW_INSTANCES' WRAP='qemu-aarch64 -L /usr/$(CROSS)' TIMEOUT=1200 check
+	  CFLAGS='-O2 -g -DSPHI_FEW_INSTANCES' WRAP='qemu-aarch64 -L /usr/$(CROSS)' TIMEOUT=1200 \
+	  TEST_ARGS=short check
 
+check-valgrind: TEST_ARGS := short
 check-valgrind: $(UNIT_BIN) $(API_BIN)
 	$(call need,valgrind,valgrind)
 	@JOBS='$(JOBS)' TIMEOUT=1800 WRAP='valgrind --quiet --leak-check=full --error-exitcode=9' \

@@ -7,7 +7,8 @@
  *
  * A failed check ends its test, not the program. The program ends with the line
  * `N passed, N failed` under both harnesses and exits nonzero when a test failed. Run with the
- * argument `long`, check_long_run is 1: tests may then use larger sizes. */
+ * argument `long`, check_long_run is 1: tests may then use larger sizes. With `short`, for slow
+ * instrumentation, check_short_run is 1: the same paths with smaller ones. */
 #ifndef SPH_TESTS_CHECK_H
 #define SPH_TESTS_CHECK_H
 
@@ -23,7 +24,7 @@
 
 #define CHECK_UNUSED __attribute__((unused))
 
-static CHECK_UNUSED int check_long_run = 0;
+static CHECK_UNUSED int check_long_run = 0, check_short_run = 0;
 
 #ifdef SPH_HAVE_CMOCKA
 
@@ -210,6 +211,7 @@ static CHECK_UNUSED void check_status_at(sph_status got, sph_status want, const 
   int main(int argc, char **argv) {                                                 \
     int check_count = (int)(sizeof(tests) / sizeof((tests)[0]));                    \
     check_long_run = argc > 1 && strcmp(argv[1], "long") == 0;                      \
+    check_short_run = argc > 1 && strcmp(argv[1], "short") == 0;                    \
     int check_failed = cmocka_run_group_tests((tests), NULL, NULL);                 \
     if (check_failed < 0 || check_failed > check_count) check_failed = check_count; \
     fflush(stderr);                                                                 \

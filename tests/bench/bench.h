@@ -70,6 +70,7 @@ BENCH_FN double bench_median(double *v, int n) {
 /* Seconds of one call. */
 typedef struct bench_time {
   double wall, best, cpu; /* median, fastest, median of processor time */
+  double pairs;           /* of one call, where a caller notes it */
 } bench_time;
 
 typedef void (*bench_fn)(void *user);
@@ -87,7 +88,7 @@ BENCH_FN bench_time bench_measure(bench_fn fn, void *user, int repetitions) {
     wall[r] = (bench_now() - t) / calls;
     cpu[r] = (bench_cpu() - c) / calls;
   }
-  bench_time t = {bench_median(wall, repetitions), 0.0, bench_median(cpu, repetitions)};
+  bench_time t = {bench_median(wall, repetitions), 0.0, bench_median(cpu, repetitions), 0.0};
   t.best = wall[0];
   return t;
 }
@@ -195,6 +196,26 @@ BENCH_FN void bench_pool_stop(bench_pool *p) {
   pthread_cond_destroy(&p->go);
   pthread_cond_destroy(&p->done);
   pthread_mutex_destroy(&p->lock);
+}
+
+/* --- a host's loop that takes notes ------------------------------------------------------- */
+
+/* Runs every loop of the library on the calling thread and keeps its processor time, so that a call
+ * can be taken apart without a look inside. */
+enum { BENCH_LOOPS = 64 };
+typedef struct bench_notes {
+  int32_t count;
+  double seconds[BENCH_LOOPS];
+} bench_notes;
+
+/* The sph_parallel_for_fn. */
+BENCH_FN void bench_noted_for(void *user, int64_t count, int64_t grain, sph_loop_fn body,
+                              void *job) {
+  bench_notes *notes = user;
+  double begin = bench_cpu();
+  (void)grain;
+  body(job, 0, count, 0);
+  if (notes->count < BENCH_LOOPS) notes->seconds[notes->count++] = bench_cpu() - begin;
 }
 
 /* --- lines -------------------------------------------------------------------------------- */

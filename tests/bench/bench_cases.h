@@ -22,6 +22,7 @@ enum { BENCH_SORTED = 0, BENCH_SHUFFLED = 1 };
 typedef struct bench_setup {
   int32_t dim, threads, isa;
   int32_t host;   /* threads come from a pool of the host's */
+  int32_t noted;  /* one thread, its loops timed: bench_notes */
   int32_t order;  /* BENCH_SORTED, BENCH_SHUFFLED */
   int32_t vary;   /* masses, speeds of sound and h differ: no loop for uniform sets fits */
   int32_t method; /* SPH_NEIGHBORS_*; 0: cells */
@@ -32,6 +33,7 @@ typedef struct bench_setup {
 typedef struct bench_set {
   bench_setup setup;
   bench_pool pool;
+  bench_notes notes;
   sph_context *ctx;
   sph_kernel *kernel;
   sph_particles *set;
@@ -93,6 +95,11 @@ BENCH_FN void bench_context(bench_set *s) {
     o.workers = s->setup.threads;
     o.parallel_for = bench_pool_for;
     o.parallel_user = &s->pool;
+  }
+  if (s->setup.noted) {
+    o.workers = 2; /* with one, loops would not be offered */
+    o.parallel_for = bench_noted_for;
+    o.parallel_user = &s->notes;
   }
   BENCH_OK(sph_context_create(&o, &s->ctx), NULL);
 }

@@ -59,61 +59,77 @@ static void lengths(const setup *s, const double *x, double *h, int64_t n) {
   }
 }
 
-static int measure(const setup *s, const double *x, const double *h, int64_t n, int32_t isa,
-                   int32_t threads) {
-  const int repetitions = args.repetitions;
+typedef struct build_job {
+  const setup *s;
+  sph_context *ctx;
+  sph_neighbors *list;
+  const double *x, *h;
+  int64_t n;
+} build_job;
+
+static void build(void *user) {
+  build_job *j = user;
+  BENCH_OK(sph_neighbors_build_arrays(j->list, j->s->dim, j->n, j->x, j->h, 0.0), j->ctx);
+}
+
+static bench_time measure(const setup *s, const double *x, const double *h, int64_t n, int32_t isa,
+                          int32_t threads) {
   sph_context_options co;
   sph_neighbors_options no;
-  sph_context *ctx = NULL;
-  sph_neighbors *list = NULL;
-  double seconds[BENCH_MOST];
+  build_job j = {.s = s, .x = x, .h = h, .n = n};
+  int64_t peak = 0;
   sph_context_options_init(&co);
   co.threads = threads;
   co.isa = isa;
   bench_pin(threads);
-  if (sph_context_create(&co, &ctx) != SPH_OK) return 1;
+  BENCH_OK(sph_context_create(&co, &j.ctx), NULL);
   sph_neighbors_options_init(&no);
   no.method = s->method;
-  int failed = sph_neighbors_create(ctx, &no, &list) != SPH_OK;
-  for (int r = -1; r < repetitions && !failed; r++) {
-    double begin = bench_now();
-    failed = sph_neighbors_build_arrays(list, s->dim, n, x, h, 0.0) != SPH_OK;
-    if (r >= 0) seconds[r] = bench_now() - begin;
-  }
-  if (failed) printf("failed: %s\n", sph_context_last_error(ctx));
-  double t = bench_median(seconds, repetitions), pairs = (double)sph_neighbors_pairs(list);
-  int64_t peak = 0;
-  sph_context_memory(ctx, NULL, &peak, NULL);
-  if (!failed)
-    printf("BENCH case=%s dim=%d n=%lld threads=%d isa=%s neighbours=%.1f mpairs_per_s=%.1f "
-           "ns_per_pair=%.3f seconds=%.4f bytes_per_particle=%.0f order=%s\n",
-           s->name, (int)s->dim, (long long)n, (int)threads, sph_isa_name(isa), pairs / (double)n,
-           pairs / t * 1e-6, t / pairs * 1e9, t, (double)peak / (double)n,
-           s->shuffled ? "shuffled" : "spatial");
-  fflush(stdout);
-  sph_neighbors_destroy(list);
-  sph_context_destroy(ctx);
-  return failed;
+  BENCH_OK(sph_neighbors_create(j.ctx, &no, &j.list), j.ctx);
+  bench_line line = {.name = s->name, .dim = s->dim, .n = n, .threads = threads, .isa = isa};
+  line.time = bench_measure(build, &j, args.repetitions);
+  line.pairs = (double)sph_neighbors_pairs(j.list);
+  BENCH_OK(sph_context_memory(j.ctx, NULL, &peak, NULL), j.ctx);
+  line.bytes_per_particle = (double)peak / (double)n;
+  bench_print(&line, "seconds=%.4f best_seconds=%.4f order=%s h_ratio=%g", line.time.wall,
+              line.time.best, s->shuffled ? "shuffled" : "spatial", s->ratio);
+  sph_neighbors_destroy(j.list);
+  sph_context_destroy(j.ctx);
+  return line.time;
 }
 
-static int run(const setup *s) {
-  size_t n = (size_t)s->n + 2000;
-  double *x = malloc(n * (size_t)s->dim * 2 * sizeof *x), *h = malloc(n * 2 * sizeof *h);
-  int failed = x == NULL || h == NULL;
-  if (!failed) {
-    int64_t count = lattice(s, x);
-    if (s->shuffled) shuffle(x, count, s->dim);
-    lengths(s, x, h, count);
-    int32_t best = bench_best_isa(), threads = bench_threads(&args);
-    for (int32_t isa = best; isa >= SPH_ISA_PORTABLE && !failed; isa--) {
-      if (isa != best && !(sph_isa_available(isa) && bench_wants_isa(&args, isa))) continue;
-      failed = measure(s, x, h, count, isa, 1);
-      if (!failed && bench_wants_threads(&args)) failed = measure(s, x, h, count, isa, threads);
-    }
-  }
+/* One thread and, where wanted, several. */
+static void measure_threads(const setup *s, const double *x, const double *h, int64_t n,
+                            int32_t isa) {
+  int32_t threads = bench_threads(&args);
+  bench_time one = measure(s, x, h, n, isa, 1);
+  if (!bench_wants_threads(&args)) return;
+  bench_time many = measure(s, x, h, n, isa, threads);
+  printf("BENCH case=ratio of=%s dim=%d isa=%s h_ratio=%g what=two_threads threads=%d value=%.3f "
+         "by_cpu=%.3f\n",
+         s->name, (int)s->dim, sph_isa_name(isa), s->ratio, (int)threads, one.best / many.best,
+         one.cpu / many.cpu * threads);
+}
+
+/* Every instruction set for the first case only, unless asked for. */
+static int wants_isa(const setup *s, int32_t isa) {
+  int usual = s->dim == 3 && s->neighbours == 74 && s->ratio == 1 && !s->shuffled;
+  return sph_isa_available(isa) && bench_wants_isa(&args, isa) &&
+         (usual || args.longer || args.only);
+}
+
+static void run(const setup *s) {
+  int64_t most = s->n + s->n / 8 + 2000; /* a full lattice */
+  double *x = bench_alloc(most * s->dim, sizeof *x), *h = bench_alloc(most, sizeof *h);
+  int64_t count = lattice(s, x);
+  if (s->shuffled) shuffle(x, count, s->dim);
+  lengths(s, x, h, count);
+  int32_t best = bench_best_isa();
+  measure_threads(s, x, h, count, best);
+  for (int32_t isa = best - 1; isa >= SPH_ISA_PORTABLE; isa--)
+    if (wants_isa(s, isa)) measure_threads(s, x, h, count, isa);
   free(x);
   free(h);
-  return failed;
 }
 
 int main(int argc, char **argv) {
@@ -133,7 +149,7 @@ int main(int argc, char **argv) {
     setup s = setups[k];
     if (!bench_wants(&args, s.name) || !bench_wants_dim(&args, s.dim)) continue;
     if (args.neighbours > 0.0) s.neighbours = args.neighbours;
-    if (run(&s)) return 1;
+    run(&s);
   }
   return 0;
 }

@@ -5,9 +5,20 @@
 
 #include "bench_args.h"
 #include "bench_cases.h"
+#include "bench_machine.h"
 #include "bench_scalar.h"
 
+#include <sys/resource.h>
+
+enum { PART = 4 };
+
 static bench_args args;
+static bench_machine machine; /* measured when first needed */
+
+static const bench_machine *get_machine(void) {
+  if (machine.threads == 0) machine = bench_machine_measure(bench_best_isa(), bench_threads(&args));
+  return &machine;
+}
 
 static int wanted(int which) {
   return bench_wants(&args, bench_case[which].name) &&
@@ -39,6 +50,7 @@ static void scalar_open(scalar_job *j, bench_set *s) {
   sph_operands_init(&j->a);
   BENCH_OK(sph_operands_from_set(s->set, &j->a), s->ctx);
   BENCH_OK(sph_neighbors_rows(s->list, &j->offsets, &j->indices), s->ctx);
+  j->rows = n;
   j->alpha = bench_alpha;
   j->beta = bench_beta;
   j->art_epsilon = bench_art_epsilon;
@@ -99,6 +111,12 @@ static double compare(bench_set *s, int which, scalar_job *j) {
   return d;
 }
 
+/* Those of the rows that are timed: the first ones in the host's order, which is sorted. */
+static double pairs_of(const scalar_job *j) {
+  return (double)(j->offsets[j->rows] - j->offsets[0]);
+}
+
+/* Compared on all rows, timed on a quarter of them. */
 static scalar_result time_scalar(int32_t dim, int64_t n, double h) {
   static const bench_fn loops[BENCH_CASES] = {scalar_wcsph, scalar_elastic, scalar_cured,
                                               scalar_density, scalar_gradient};
@@ -112,12 +130,15 @@ static scalar_result time_scalar(int32_t dim, int64_t n, double h) {
   memset(&r, 0, sizeof r);
   for (int k = 0; k < BENCH_CASES; k++) {
     if (!wanted(k)) continue;
-    r.rate[k] = (double)s.pairs / bench_measure(loops[k], &j, BENCH_REPETITIONS).wall;
+    loops[k](&j);
     r.difference[k] = compare(&s, k, &j);
     if (!(r.difference[k] < 1e-10)) {
       printf("failed: %s differs from the plain loop by %g\n", bench_case[k].name, r.difference[k]);
       exit(1);
     }
+    j.rows = s.n / PART;
+    r.rate[k] = pairs_of(&j) / bench_measure(loops[k], &j, args.repetitions).wall;
+    j.rows = s.n;
   }
   scalar_close(&j);
   bench_close(&s);
@@ -158,7 +179,10 @@ static void run_cases(const bench_setup *setup, int cases, const scalar_result *
     bench_print(&line, "%s parallel=%s order=%s masses_and_h=%s", bench_case[k].extra,
                 threads_of(setup), setup->order == BENCH_SHUFFLED ? "shuffled" : "sorted",
                 setup->vary ? "vary" : "uniform");
-    if (times) times[k] = line.time;
+    if (times) {
+      times[k] = line.time;
+      times[k].pairs = line.pairs;
+    }
     bench_work_close(&w);
   }
   bench_close(&s);
@@ -166,13 +190,37 @@ static void run_cases(const bench_setup *setup, int cases, const scalar_result *
 
 /* Times of a over b: of the fastest repetitions, and of processor time, which other work on the
  * machine disturbs less. With threads the latter is time of all of them, so 2.0 would be two
- * threads that never wait or hinder each other. */
+ * threads that never wait or hinder each other; and what register-only loops gain on these
+ * processors stands beside. */
 static void ratio(const char *what, int32_t dim, int which, bench_time a, bench_time b,
-                  double threads) {
+                  int32_t threads) {
   if (!wanted(which)) return;
-  printf("BENCH case=ratio of=%s %s dim=%d what=%s value=%.3f by_cpu=%.3f\n",
-         bench_case[which].name, bench_case[which].extra, (int)dim, what, a.best / b.best,
-         a.cpu / b.cpu * threads);
+  double value = a.best / b.best;
+  printf("BENCH case=ratio of=%s %s dim=%d what=%s value=%.3f by_cpu=%.3f", bench_case[which].name,
+         bench_case[which].extra, (int)dim, what, value, a.cpu / b.cpu * threads);
+  if (threads > 1) {
+    double possible = get_machine()->flops[1] / get_machine()->flops[0];
+    printf(" possible=%.2f of_possible=%.2f", possible, value / possible);
+  }
+  putchar('\n');
+  fflush(stdout);
+}
+
+/* How near to what the machine can do. Bytes are those that must come from and go to memory: an
+ * index a pair, and the fields of a particle once for all its neighbours. */
+static void roofline(int32_t dim, int which, double neighbours, double pairs_per_s) {
+  if (!wanted(which)) return;
+  const bench_machine *m = get_machine();
+  double flops = scalar_flops(which, (int)dim);
+  double bytes = 4.0 + 8.0 * scalar_doubles(which, (int)dim) / neighbours;
+  double roof = fmin(m->flops[0], flops / bytes * m->bytes[0]);
+  printf("BENCH case=roofline of=%s %s dim=%d threads=1 flops_per_pair=%.0f bytes_per_pair=%.2f "
+         "flops_per_byte=%.2f peak_gflops=%.1f stream_gbytes_per_s=%.1f roof_gflops=%.1f "
+         "bound=%s gflops=%.1f share=%.3f\n",
+         bench_case[which].name, bench_case[which].extra, (int)dim, flops, bytes, flops / bytes,
+         m->flops[0] * 1e-9, m->bytes[0] * 1e-9, roof * 1e-9,
+         roof < m->flops[0] ? "memory" : "flops", flops * pairs_per_s * 1e-9,
+         flops * pairs_per_s / roof);
   fflush(stdout);
 }
 
@@ -223,14 +271,33 @@ static void run_dimension(int32_t dim, int64_t n) {
     if (wanted(k)) printf(" %.1e", scalar.difference[k]);
   printf("\n");
   run_cases(&u, BENCH_CASES, &scalar, best);
-  run_isas(&u, &scalar, best);
+  if (dim == 3)
+    for (int k = 0; k <= BENCH_ELASTIC; k++)
+      roofline(dim, k, neighbours_of(dim), best[k].pairs / best[k].best);
+  if (dim == 3 || args.longer || args.only) run_isas(&u, &scalar, best);
   if (bench_wants_threads(&args)) run_threads(&u, &scalar, best);
-  if (bench_wants_variants(&args)) run_orders(&u, &scalar, best);
+  if (bench_wants_variants(&args) && (dim == 3 || args.longer || args.only))
+    run_orders(&u, &scalar, best);
 }
 
-/* The same number of neighbours at every size. */
+/* Largest memory of the process so far, all sets and the benchmark's own arrays included. */
+static double resident_gib(void) {
+  struct rusage u;
+  return getrusage(RUSAGE_SELF, &u) == 0 ? (double)u.ru_maxrss / 1048576.0 : 0.0;
+}
+
+static void print_size(int which, int64_t n, bench_time each, bench_time first) {
+  if (!wanted(which)) return;
+  printf("BENCH case=scaling of=%s dim=3 n=%lld ns_per_particle=%.2f cpu_ns_per_particle=%.2f "
+         "times_first=%.3f by_cpu=%.3f resident_gib=%.2f\n",
+         bench_case[which].name, (long long)n, each.best * 1e9, each.cpu * 1e9,
+         each.best / first.best, each.cpu / first.cpu, resident_gib());
+  fflush(stdout);
+}
+
+/* The same number of neighbours at every size: time of a particle against that of the smallest. */
 static void run_scaling(void) {
-  bench_time low[2], high[2];
+  bench_time first[2];
   for (int64_t n = 10000; n <= (args.longer ? 10000000 : 1000000); n *= 10) {
     bench_time t[BENCH_CASES];
     bench_setup u = {.dim = 3, .n = n, .threads = 1, .isa = bench_best_isa()};
@@ -238,14 +305,11 @@ static void run_scaling(void) {
     u.h = bench_tune(3, n, neighbours_of(3));
     run_cases(&u, 2, NULL, t);
     for (int k = 0; k < 2; k++) {
-      if (!wanted(k)) continue;
-      bench_time each = {t[k].wall / count, t[k].best / count, t[k].cpu / count};
-      if (n == 10000) low[k] = high[k] = each;
-      if (each.cpu < low[k].cpu) low[k] = each;
-      if (each.cpu > high[k].cpu) high[k] = each;
+      bench_time each = {t[k].wall / count, t[k].best / count, t[k].cpu / count, 0.0};
+      if (n == 10000) first[k] = each;
+      print_size(k, (int64_t)count, each, first[k]);
     }
   }
-  for (int k = 0; k < 2; k++) ratio("scaling_time", 3, k, high[k], low[k], 1);
 }
 
 int main(int argc, char **argv) {
@@ -253,8 +317,9 @@ int main(int argc, char **argv) {
   args = bench_read_args(argc, argv);
   for (int k = 0; k < BENCH_CASES; k++) any |= wanted(k);
   if (!any) return 0;
-  for (int32_t dim = 3; dim >= 1; dim--)
+  for (int32_t dim = 3; dim >= 1 && !args.scaling; dim--)
     if (bench_wants_dim(&args, dim)) run_dimension(dim, args.n ? args.n : 1000000);
-  if (args.n == 0 && bench_wants_variants(&args)) run_scaling();
+  if (args.scaling || (args.n == 0 && bench_wants_dim(&args, 3) && bench_wants_variants(&args)))
+    run_scaling();
   return 0;
 }

@@ -6,12 +6,14 @@
 #define SPH_TESTS_BENCH_SCALAR_H
 
 #include "bench.h"
+#include "bench_cases.h"
 
 typedef struct scalar_job {
   sph_operands a;
   const int64_t *offsets;
   const int32_t *indices;
-  double alpha, beta;                 /* viscosity */
+  int64_t rows;       /* the first ones; what belongs to later ones was computed before, on all */
+  double alpha, beta; /* viscosity */
   double art_epsilon, art_ratio;      /* artificial stress */
   const double *f;                    /* field of the gradient */
   double *pr, *matrix, *art;          /* scratch */
@@ -50,11 +52,11 @@ SCALAR_INLINE void scalar_wcsph_dim(const scalar_job *s, int dim) {
   const sph_operands *a = &s->a;
   const double *m = a->m, *rho = a->rho, *c = a->c, *pr = s->pr;
   double h = a->h[0], norm = scalar_norm(dim, h) / (h * h), per_h = 1.0 / h;
-  for (int64_t i = 0; i < a->n; i++) {
+  for (int64_t i = 0; i < s->rows; i++) {
     double q = a->p[i] / (rho[i] * rho[i]);
     s->pr[i] = q;
   }
-  for (int64_t i = 0; i < a->n; i++) {
+  for (int64_t i = 0; i < s->rows; i++) {
     double drho = 0.0, acc[3] = {0.0, 0.0, 0.0};
     for (int64_t k = s->offsets[i]; k < s->offsets[i + 1]; k++) {
       int64_t j = s->indices[k];
@@ -106,7 +108,7 @@ SCALAR_INLINE void scalar_inverse(int dim, const double *b, double *inverse) {
 SCALAR_INLINE void scalar_matrices(const scalar_job *s, int dim) {
   const sph_operands *a = &s->a;
   double h = a->h[0], norm = scalar_norm(dim, h) / (h * h), per_h = 1.0 / h;
-  for (int64_t i = 0; i < a->n; i++) {
+  for (int64_t i = 0; i < s->rows; i++) {
     double b[9] = {0.0};
     for (int64_t k = s->offsets[i]; k < s->offsets[i + 1]; k++) {
       int64_t j = s->indices[k];
@@ -129,15 +131,15 @@ SCALAR_INLINE void scalar_elastic_dim(const scalar_job *s, int dim, int cured) {
   double h = a->h[0], norm = scalar_norm(dim, h) / (h * h), per_h = 1.0 / h;
   double at_spacing = 1.0 / scalar_w(dim, s->art_ratio);
   double *weighted = s->grad; /* sigma / rho^2 */
-  for (int64_t i = 0; i < a->n; i++) {
+  for (int64_t i = 0; i < s->rows; i++) {
     s->pr[i] = m[i] / rho[i];
     for (int k = 0; k < n; k++) weighted[i * n + k] = a->sigma[i * n + k] / (rho[i] * rho[i]);
   }
   if (cured) {
     scalar_matrices(s, dim);
-    BENCH_OK(sph_artificial_stress(dim, a->n, a->sigma, rho, 0.0, s->art_epsilon, s->art), NULL);
+    BENCH_OK(sph_artificial_stress(dim, s->rows, a->sigma, rho, 0.0, s->art_epsilon, s->art), NULL);
   }
-  for (int64_t i = 0; i < a->n; i++) {
+  for (int64_t i = 0; i < s->rows; i++) {
     double L[9] = {0.0}, acc[3] = {0.0, 0.0, 0.0}, ti[6];
     for (int k = 0; k < n; k++) ti[k] = weighted[i * n + k];
     for (int64_t k = s->offsets[i]; k < s->offsets[i + 1]; k++) {
@@ -185,7 +187,7 @@ SCALAR_INLINE void scalar_elastic_dim(const scalar_job *s, int dim, int cured) {
 SCALAR_INLINE void scalar_density_dim(const scalar_job *s, int dim) {
   const sph_operands *a = &s->a;
   double h = a->h[0], norm = scalar_norm(dim, h), per_h = 1.0 / h;
-  for (int64_t i = 0; i < a->n; i++) {
+  for (int64_t i = 0; i < s->rows; i++) {
     double sum = a->m[i] * scalar_w(dim, 0.0);
     for (int64_t k = s->offsets[i]; k < s->offsets[i + 1]; k++) {
       double dx[3], r2 = scalar_distance(a->x, i, s->indices[k], dim, dx);
@@ -198,8 +200,8 @@ SCALAR_INLINE void scalar_density_dim(const scalar_job *s, int dim) {
 SCALAR_INLINE void scalar_gradient_dim(const scalar_job *s, int dim) {
   const sph_operands *a = &s->a;
   double h = a->h[0], norm = scalar_norm(dim, h) / (h * h), per_h = 1.0 / h;
-  for (int64_t i = 0; i < a->n; i++) s->pr[i] = a->m[i] / a->rho[i];
-  for (int64_t i = 0; i < a->n; i++) {
+  for (int64_t i = 0; i < s->rows; i++) s->pr[i] = a->m[i] / a->rho[i];
+  for (int64_t i = 0; i < s->rows; i++) {
     double sum[3] = {0.0, 0.0, 0.0};
     for (int64_t k = s->offsets[i]; k < s->offsets[i + 1]; k++) {
       int64_t j = s->indices[k];
@@ -208,6 +210,54 @@ SCALAR_INLINE void scalar_gradient_dim(const scalar_job *s, int dim) {
       SCALAR_UNROLL for (int d = 0; d < dim; d++) sum[d] += w * dx[d];
     }
     for (int d = 0; d < dim; d++) s->grad[i * dim + d] = sum[d];
+  }
+}
+
+/* --- work of the loops -------------------------------------------------------------------- */
+
+/* What one pair costs: additions, multiplications, divisions and square roots of the loops above,
+ * each once, the viscosity of every pair included. Counted by hand, for 2-D and 3-D:
+ *   distance             dim + 2 dim - 1
+ *   q and slope          2 + 5
+ *   v_ij and v_ij.x_ij   dim + 2 dim - 1
+ *   viscosity            3 + 4 + 2 + 2 (phi, bracket, density, quotient)
+ *   wcsph: mf, push, its viscosity 2 + 1 + 1; rate of density 2; acceleration 1 + 2 dim
+ *   elastic: f, gradient 1 + dim; sums of stress n; acceleration and velocity gradient
+ *            dim (4 + 4 dim)
+ *   density: distance, q 2, w 8, sum 2; gradient: distance, q and slope, weight 4, sums 2 dim
+ *   cured: another pass for the matrix (distance, q and slope, volume 2, entries 2 dim^2 + dim),
+ *          corrected gradient 2 dim^2, artificial stress 11 + 3 n */
+BENCH_FN double scalar_flops(int which, int dim) {
+  double d = dim, n = d * (d + 1.0) / 2.0, distance = 3.0 * d - 1.0;
+  double elastic = 2.0 * distance + 7.0 + 11.0 + 1.0 + d + n + d * (4.0 + 4.0 * d);
+  double matrix = distance + 7.0 + 2.0 + 2.0 * d * d + d;
+  switch (which) {
+  case BENCH_WCSPH:
+    return 2.0 * distance + 7.0 + 11.0 + 4.0 + 2.0 + 1.0 + 2.0 * d;
+  case BENCH_ELASTIC:
+    return elastic;
+  case BENCH_CURED:
+    return elastic + matrix + 2.0 * d * d + 11.0 + 3.0 * n;
+  case BENCH_DENSITY:
+    return distance + 2.0 + 8.0 + 2.0;
+  default:
+    return distance + 7.0 + 4.0 + 2.0 * d;
+  }
+}
+
+/* Doubles of a particle that a case must read and write, whatever the program. */
+BENCH_FN double scalar_doubles(int which, int dim) {
+  double d = dim, n = d * (d + 1.0) / 2.0;
+  switch (which) {
+  case BENCH_WCSPH: /* x v m rho p c; dv/dt drho/dt */
+    return 2.0 * d + 4.0 + d + 1.0;
+  case BENCH_ELASTIC: /* x v m rho c sigma; dv/dt dsigma/dt */
+  case BENCH_CURED:
+    return 2.0 * d + 3.0 + n + d + n;
+  case BENCH_DENSITY: /* x m; rho */
+    return d + 2.0;
+  default: /* x m rho f; gradient */
+    return d + 3.0 + d;
   }
 }
 

@@ -107,8 +107,9 @@ static void make_integrator(stepper *w, int scheme) {
 
 /* w must stay where it is. */
 static void step_open(stepper *w, const step_setup *u, double h, double skin, int scheme,
-                      int32_t threads) {
-  bench_setup setup = {.dim = u->dim, .n = u->n, .h = h, .skin = skin, .threads = threads};
+                      int32_t threads, int32_t noted) {
+  bench_setup setup = {
+      .dim = u->dim, .n = u->n, .h = h, .skin = skin, .threads = threads, .noted = noted};
   memset(w, 0, sizeof *w);
   setup.isa = bench_best_isa();
   setup.method = skin > 0.0 ? SPH_NEIGHBORS_VERLET : SPH_NEIGHBORS_CELLS;
@@ -149,9 +150,8 @@ static void advance(void *user, int64_t begin, int64_t end, int32_t worker) {
 }
 
 /* All but X by their rates, then X by the new velocity. */
-static void host_step(stepper *w) {
+static void integrate(stepper *w) {
   bench_set *s = &w->s;
-  BENCH_OK(sph_rhs_evaluate(w->rhs, s->set, s->list, w->t, w->rates + 1, w->count - 1), s->ctx);
   for (int32_t k = 1; k <= w->count; k++) {
     int32_t field = w->rates[k % w->count].field;
     advance_job j = {bench_field(s, field), w->rates[k % w->count].values, w->dt};
@@ -161,7 +161,16 @@ static void host_step(stepper *w) {
              s->ctx);
   }
   BENCH_OK(sph_particles_touch(s->set, SPH_FIELD_X), s->ctx);
+}
+
+static void evaluate(stepper *w, sph_rhs *rhs) {
+  BENCH_OK(sph_rhs_evaluate(rhs, w->s.set, w->s.list, w->t, w->rates + 1, w->count - 1), w->s.ctx);
   w->evaluations++;
+}
+
+static void host_step(stepper *w) {
+  evaluate(w, w->rhs);
+  integrate(w);
 }
 
 static void one_step(void *user) {
@@ -178,27 +187,10 @@ static void one_step(void *user) {
   w->steps++;
 }
 
-/* --- measurements ------------------------------------------------------------------------- */
-
 enum { BLOCK = 10 }; /* steps in one repetition, so that each has its share of builds */
 
 static void steps(void *user) {
   for (int k = 0; k < BLOCK; k++) one_step(user);
-}
-
-/* The parts of a step, each alone. */
-static void build_list(void *user) {
-  stepper *w = user;
-  BENCH_OK(sph_neighbors_build(w->s.list, w->s.set), w->s.ctx);
-}
-static void check_list(void *user) {
-  stepper *w = user;
-  BENCH_OK(sph_particles_touch(w->s.set, SPH_FIELD_X), w->s.ctx);
-  BENCH_OK(sph_neighbors_update(w->s.list, w->s.set, NULL), w->s.ctx);
-}
-static void evaluate(void *user) {
-  stepper *w = user;
-  BENCH_OK(sph_rhs_evaluate(w->sums, w->s.set, w->s.list, w->t, w->rates, w->count), w->s.ctx);
 }
 
 static int64_t allocations(const stepper *w) {
@@ -207,24 +199,62 @@ static int64_t allocations(const stepper *w) {
   return count;
 }
 
-/* Processor time, for the parts are measured at another moment than the whole. */
-static void print_profile(stepper *w, const step_setup *u, int scheme, double step, double builds,
-                          double evaluations) {
-  check_list(w);
-  double build = builds * bench_measure(build_list, w, args.repetitions).cpu;
-  double check = evaluations * bench_measure(check_list, w, args.repetitions).cpu;
-  double sums = evaluations * bench_measure(evaluate, w, args.repetitions).cpu;
-  printf("BENCH case=%s_profile dim=%d n=%lld threads=%d scheme=%s list_build=%.3f "
-         "list_check=%.3f pack_and_sums=%.3f integrate_and_rest=%.3f ns_per_particle_step=%.1f\n",
-         u->name, (int)u->dim, (long long)w->s.n, (int)w->s.setup.threads, scheme_name[scheme],
-         build / step, check / step, sums / step, 1.0 - (build + check + sums) / step,
-         step / (double)w->s.n * 1e9);
-  fflush(stdout);
+/* --- profile ------------------------------------------------------------------------------ */
+
+enum { BUILD, CHECK, PACK, SWEEP, AFTER, INTEGRATE, PARTS };
+static const char *const part_name[PARTS] = {"list_build", "list_check",  "prepare_and_pack",
+                                             "sweep",      "after_sweep", "integrate"};
+
+/* The longest loop of an evaluation is the one over pairs (it writes its results itself: there is
+ * no unpacking apart from it); before come pressure and packing, after come stress rates. */
+static void share_evaluation(const bench_notes *notes, double all, double part[PARTS]) {
+  int32_t longest = 0;
+  double before = 0.0;
+  for (int32_t k = 1; k < notes->count; k++)
+    if (notes->seconds[k] > notes->seconds[longest]) longest = k;
+  for (int32_t k = 0; k < longest; k++) before += notes->seconds[k];
+  part[PACK] += before;
+  part[SWEEP] += notes->seconds[longest];
+  part[AFTER] += all - before - notes->seconds[longest];
 }
+
+/* One step of the host's, its parts timed; they add up to the step. */
+static void profiled_step(stepper *w, double part[PARTS]) {
+  int32_t rebuilt = 0;
+  double t0 = bench_cpu();
+  BENCH_OK(sph_neighbors_update(w->s.list, w->s.set, &rebuilt), w->s.ctx);
+  w->s.notes.count = 0;
+  double t1 = bench_cpu();
+  evaluate(w, w->sums);
+  double t2 = bench_cpu();
+  integrate(w);
+  part[rebuilt ? BUILD : CHECK] += t1 - t0;
+  share_evaluation(&w->s.notes, t2 - t1, part);
+  part[INTEGRATE] += bench_cpu() - t2;
+}
+
+static void run_profile(const step_setup *u, double h, double skin) {
+  stepper w;
+  double part[PARTS] = {0.0}, all = 0.0;
+  int count = BLOCK * args.repetitions;
+  step_open(&w, u, h, skin, HOST, 1, 1);
+  profiled_step(&w, part);
+  memset(part, 0, sizeof part);
+  for (int k = 0; k < count; k++) profiled_step(&w, part);
+  for (int k = 0; k < PARTS; k++) all += part[k];
+  printf("BENCH case=%s_profile dim=%d n=%lld threads=1 ns_per_particle_step=%.1f", u->name,
+         (int)u->dim, (long long)w.s.n, all / count / (double)w.s.n * 1e9);
+  for (int k = 0; k < PARTS; k++) printf(" %s=%.3f", part_name[k], part[k] / all);
+  putchar('\n');
+  fflush(stdout);
+  step_close(&w);
+}
+
+/* --- whole steps -------------------------------------------------------------------------- */
 
 static void run_steps(const step_setup *u, double h, double skin, int scheme, int32_t threads) {
   stepper w;
-  step_open(&w, u, h, skin, scheme, threads);
+  step_open(&w, u, h, skin, scheme, threads, 0);
   steps(&w); /* every buffer gets its size */
   int64_t before = allocations(&w), builds = sph_neighbors_builds(w.s.list), peak = 0;
   w.steps = w.evaluations = 0;
@@ -250,20 +280,19 @@ static void run_steps(const step_setup *u, double h, double skin, int scheme, in
               scheme_name[scheme], evaluations, rebuilt, skin,
               (double)sph_neighbors_pairs(w.s.list) / (double)w.s.n, (long long)made,
               line.steps * threads / t.cpu);
-  print_profile(&w, u, scheme, t.cpu / BLOCK, rebuilt, evaluations);
   step_close(&w);
 }
 
 /* Lengths in units of the spacing. Without a skin every step builds. */
 static double choose_skin(const step_setup *u, double h) {
-  static const double skins[] = {0.0, 0.05, 0.1, 0.2, 0.3, 0.45, 0.6};
-  enum { SKINS = sizeof skins / sizeof skins[0], STEPS = 40 };
+  static const double skins[] = {0.0, 0.05, 0.1, 0.2, 0.3, 0.45};
+  enum { SKINS = sizeof skins / sizeof skins[0], STEPS = 20 };
   double least = INFINITY, best = 0.0;
   printf("BENCH case=%s_skin dim=%d n=%lld ns_per_particle_step=", u->name, (int)u->dim,
          (long long)u->n);
   for (int k = 0; k < SKINS; k++) {
     stepper w;
-    step_open(&w, u, h, skins[k], HOST, 1);
+    step_open(&w, u, h, skins[k], HOST, 1, 0);
     one_step(&w);
     double begin = bench_cpu();
     for (int i = 0; i < STEPS; i++) one_step(&w);
@@ -290,7 +319,10 @@ static void run_kind(const step_setup *kind, int64_t large) {
   double h = bench_tune(u.dim, u.n, u.neighbours);
   double skin = args.skin >= 0.0 ? args.skin : choose_skin(&u, h);
   for (int scheme = EULER; scheme <= HOST; scheme++)
-    if (bench_wants_scheme(&args, scheme_name[scheme])) run_steps(&u, h, skin, scheme, 1);
+    if (bench_wants_scheme(&args, scheme_name[scheme]) &&
+        (scheme != LEAPFROG || args.longer || args.scheme))
+      run_steps(&u, h, skin, scheme, 1);
+  run_profile(&u, h, skin);
   if (bench_wants_threads(&args)) run_steps(&u, h, skin, HOST, threads);
   if (large == 0 || args.n || !bench_wants_variants(&args)) return;
   u.n = large;
@@ -299,13 +331,20 @@ static void run_kind(const step_setup *kind, int64_t large) {
   run_steps(&u, h, skin, HOST, threads);
 }
 
+/* `large`: once more with so many particles; 0: not. */
+static const struct {
+  step_setup setup;
+  int64_t large;
+} kinds[] = {
+    {{"step_wcsph", FLUID, 3, 100000, 63.0}, 1000000},
+    {{"step_wcsph", FLUID, 2, 100000, 25.0}, 0},
+    {{"step_elastic", SOLID, 3, 100000, 64.0}, 0},
+    {{"step_elastic", SOLID, 2, 100000, 25.0}, 0},
+};
+
 int main(int argc, char **argv) {
-  const step_setup fluid = {"step_wcsph", FLUID, 3, 100000, 63.0};
-  const step_setup flat = {"step_wcsph", FLUID, 2, 100000, 25.0};
-  const step_setup solid = {"step_elastic", SOLID, 3, 100000, 64.0};
   args = bench_read_args(argc, argv);
-  run_kind(&fluid, 1000000);
-  run_kind(&flat, 0);
-  run_kind(&solid, 0);
+  for (size_t k = 0; k < sizeof kinds / sizeof kinds[0]; k++)
+    run_kind(&kinds[k].setup, kinds[k].large);
   return 0;
 }

@@ -195,7 +195,11 @@ static void test_every_combination(void **state) {
       for (int periodic = 0; periodic < 1 << dim; periodic++)
         for (int32_t rule = 0; rule <= SPH_H_AVERAGE; rule++) {
           int32_t used = rule == 0 ? SPH_H_HARMONIC : rule;
-          make_cloud(&shared, dim, check_long_run ? 343 : 216, shape, rule > 0, periodic);
+          make_cloud(&shared, dim,
+                     check_long_run    ? 343
+                     : check_short_run ? 64
+                                       : 216,
+                     shape, rule > 0, periodic);
           find_all(&shared, used);
           compare_everywhere(&shared, used);
         }
@@ -276,7 +280,7 @@ static int64_t total_pairs(sph_context *ctx, int32_t method, int32_t dim, int64_
 
 static void test_large(void **state) {
   (void)state;
-  int64_t n = check_long_run ? 200000 : 20000;
+  int64_t n = check_long_run ? 200000 : check_short_run ? 5000 : 20000;
   double *x = malloc((size_t)n * 3 * sizeof *x), *h = malloc((size_t)n * sizeof *h);
   for (int32_t dim = 1; dim <= 3; dim++)
     for (int shape = 0; shape < 2; shape++) {
