@@ -109,7 +109,8 @@ endif
 ALL_BIN := $(UNIT_BIN) $(API_BIN) $(BENCH_BIN) $(EXAMPLE_BIN) $(CASE_BIN)
 HEADERS := $(sort $(wildcard include/sph/*.h))
 
-.PHONY: all lib examples tests demo check check-long validate validate-long bench symbols \
+.PHONY: all lib examples tests demo check check-long validate validate-long bench \
+  bench-instructions symbols \
   check-headers check-symbols check-layers check-readme check-abi record-abi check-asan check-tsan \
   check-aarch64 check-valgrind check-install format check-format install uninstall clean help FORCE
 .DELETE_ON_ERROR:
@@ -204,6 +205,11 @@ check-long: check
 validate validate-long: $(CASE_BIN)
 	@JOBS='$(JOBS)' tests/tools/run_validation.sh $(if $(filter %long,$@),long,validate) \
 	  $(BUILD)/validation $^
+
+# Instructions a pair, where valgrind is installed.
+bench-instructions: $(BENCH_BIN)
+	$(call need,valgrind,valgrind)
+	@tests/tools/bench_instructions.sh $(BUILD)/tests/bench
 
 bench: $(BENCH_BIN)
 	@for b in $^; do $$b $(BENCH_ARGS) || exit 1; done
@@ -308,6 +314,7 @@ help:
 	@echo 'make check          every unit and api test; check-long: with larger sizes'
 	@echo 'make validate       every published case, CASE=name for one; validate-long'
 	@echo 'make bench          speed: one BENCH line a case; BENCH_ARGS="only=wcsph_rhs dim=3"'
+	@echo 'make bench-instructions   instructions a pair (valgrind)'
 	@echo 'make check-headers  each public header alone, as C11 and C++11'
 	@echo 'make check-symbols  exported names and needed libraries'
 	@echo 'make check-layers   no include goes upward'

@@ -8,6 +8,7 @@
  *   threads=2 isa=avx2 the variants with these
  *   skin=0.2           of steps, in spacings, instead of a choice by measurement
  *   repetitions=5      of which the median is taken
+ *   bare               of right-hand sides: neither plain loop nor roofline
  *   scaling            of right-hand sides: the same case from 10^4 to 10^6 (long: 10^7) alone
  *   long               also what takes minutes: ten million particles, every instruction set
  */
@@ -19,7 +20,7 @@
 typedef struct bench_args {
   const char *only, *form, *scheme; /* NULL: every one */
   int32_t dim, threads, isa;        /* 0: every one */
-  int32_t variants, longer, scaling, repetitions;
+  int32_t variants, longer, bare, scaling, repetitions;
   int64_t n;         /* 0: the case's own */
   double neighbours; /* 0: the usual */
   double skin;       /* < 0: to be chosen */
@@ -27,7 +28,7 @@ typedef struct bench_args {
 
 static __attribute__((noreturn)) void bench_usage(const char *argument) {
   printf("unknown argument %s; known: only= dim= n= neighbours= form= scheme= threads= isa= skin= "
-         "repetitions= variants scaling long\n",
+         "repetitions= variants bare scaling long\n",
          argument);
   exit(2);
 }
@@ -76,6 +77,8 @@ BENCH_FN void bench_argument(bench_args *a, const char *s) {
     a->repetitions = (int32_t)bench_number(s, v, 1, BENCH_MOST);
   else if (strcmp(s, "variants") == 0)
     a->variants = 1;
+  else if (strcmp(s, "bare") == 0)
+    a->bare = 1;
   else if (strcmp(s, "scaling") == 0)
     a->scaling = 1;
   else if (strcmp(s, "long") == 0)

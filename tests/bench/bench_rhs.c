@@ -261,23 +261,30 @@ static void run_orders(const bench_setup *best, const scalar_result *scalar,
   for (int k = 0; k < 3; k++) ratio("varying_time", best->dim, k, other[k], time[k], 1);
 }
 
+static void print_differences(int32_t dim, const scalar_result *scalar) {
+  printf("# %d-D: largest difference from the plain loop, relative to the largest rate:", (int)dim);
+  for (int k = 0; k < BENCH_CASES; k++)
+    if (wanted(k)) printf(" %.1e", scalar->difference[k]);
+  printf("\n");
+}
+
 static void run_dimension(int32_t dim, int64_t n) {
   double h = bench_tune(dim, n, neighbours_of(dim));
   bench_time best[BENCH_CASES];
-  scalar_result scalar = time_scalar(dim, n, h);
+  scalar_result scalar = {{0.0}, {0.0}};
   bench_setup u = {.dim = dim, .n = n, .h = h, .threads = 1, .isa = bench_best_isa()};
-  printf("# %d-D: largest difference from the plain loop, relative to the largest rate:", (int)dim);
-  for (int k = 0; k < BENCH_CASES; k++)
-    if (wanted(k)) printf(" %.1e", scalar.difference[k]);
-  printf("\n");
+  int variants = dim == 3 || args.longer || args.only;
+  if (!args.bare) {
+    scalar = time_scalar(dim, n, h);
+    print_differences(dim, &scalar);
+  }
   run_cases(&u, BENCH_CASES, &scalar, best);
-  if (dim == 3)
+  if (dim == 3 && !args.bare)
     for (int k = 0; k <= BENCH_ELASTIC; k++)
       roofline(dim, k, neighbours_of(dim), best[k].pairs / best[k].best);
-  if (dim == 3 || args.longer || args.only) run_isas(&u, &scalar, best);
+  if (variants) run_isas(&u, &scalar, best);
   if (bench_wants_threads(&args)) run_threads(&u, &scalar, best);
-  if (bench_wants_variants(&args) && (dim == 3 || args.longer || args.only))
-    run_orders(&u, &scalar, best);
+  if (bench_wants_variants(&args) && variants) run_orders(&u, &scalar, best);
 }
 
 /* Largest memory of the process so far, all sets and the benchmark's own arrays included. */
