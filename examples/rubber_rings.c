@@ -268,8 +268,9 @@ static int validate(int layers) {
 }
 
 static const char picture[] =
-    "set terminal pngcairo size 1000,800\nset output 'rubber_rings.png'\n"
-    "set datafile separator ','\nset multiplot layout 2,2\nset size ratio -1\nunset key\nunset colorbox\n"
+    "set terminal pngcairo size 1000,600\nset output 'rubber_rings.png'\n"
+    "set datafile separator ','\nset multiplot layout 2,2\nset size ratio -1\nunset key\n"
+    "unset colorbox\n"
     "set palette defined (0 'navy', 1 'dark-orange')\nset xrange [-11:11]\nset yrange [-6:6]\n"
     "do for [k=0:3] { plot 'rubber_rings_x.csv' index k using 1:2:3 with points pt 7 ps 0.3 \\\n"
     "  palette }\n";

@@ -266,8 +266,8 @@ enum {
   /* All of e, s_ij = -(dW/dr)/r. F is the least-squares fit of the deformation with just these
    * weights, so that a change of F does no work, and the force is minus the gradient of
    *   (alpha/4) sum_i V_i E_i sum_j V_j s_ij |e_i|^2,
-   * which is frame-indifferent: energy, momentum and angular momentum are kept. Costs next to
-   * nothing in the composed right-hand side. In no source. */
+   * which is frame-indifferent: energy, momentum and angular momentum are kept. In the
+   * composed right-hand side it rides on the stress. In no source. */
   SPH_HOURGLASS_VARIATIONAL = 1,
   /* The part of e along x_ij, s_ij = W / X_ij^2: Ganzenmueller (2015), where E is
    * Young's modulus: take c = sqrt(E / rho) for his figures. Central, so momentum and angular

@@ -50,10 +50,10 @@ enum {
  *     only;
  *   - in full: SPH_TERM_FIRST_PIOLA, with or without SPH_TERM_HOURGLASS. Fields X, X0, M, RHO, H;
  *     C with hourglass control. An evaluation writes the fields F and PK (created where missing)
- *     of all particles, ghosts included, so that the host can read them, or ask
- *     sph_material_first_piola() for energies. With SPH_TERM_STRESS_RATE in the form
- *     LAGRANGIAN among the terms, P = J sigma F^-T instead: for materials that have a rate of the
- *     Cauchy stress, which is then integrated.
+ *     of all particles, ghosts included, so that the host can read them, and
+ *     sph_rhs_strain_energy() gives the energy. With SPH_TERM_STRESS_RATE in the form LAGRANGIAN
+ *     among the terms, P = J sigma F^-T instead: for materials that have a rate of the Cauchy
+ *     stress, which is then integrated.
  * The full form takes two sweeps over kept weights (one more for the form LAGRANGIAN). */
 
 /* Forms of SPH_TERM_STRESS_RATE. */

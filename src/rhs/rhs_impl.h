@@ -66,10 +66,10 @@ typedef struct sphi_evaluation {
   const sph_rate *rates;
   int32_t count;
   int32_t dim;
-  int64_t rows;  /* real particles */
+  int64_t rows;    /* real particles */
   uint32_t active; /* SPHI_* terms of the main sweep */
-  sph_operands a; /* x is the position field */
-  double *F, *P;  /* fields of the set, where a total-Lagrangian term is wanted */
+  sph_operands a;  /* x is the position field */
+  double *F, *P;   /* fields of the set, where a total-Lagrangian term is wanted */
 } sphi_evaluation;
 
 /* The rate array asked for a field, or NULL. */
@@ -100,9 +100,9 @@ sph_status sphi_rhs_first_piola(sphi_evaluation *e);
 
 /* Whether some material has a pressure law; P then need not exist before. */
 int sphi_rhs_has_pressure_law(const sph_rhs *rhs);
-sph_status sphi_rhs_pressures(sphi_evaluation *e);    /* P from the materials that have a law */
-sph_status sphi_rhs_sweeps(sphi_evaluation *e);       /* every pair sum of the library's own terms */
-sph_status sphi_rhs_host_terms(sphi_evaluation *e);   /* the host's pair sums */
+sph_status sphi_rhs_pressures(sphi_evaluation *e);  /* P from the materials that have a law */
+sph_status sphi_rhs_sweeps(sphi_evaluation *e);     /* every pair sum of the library's own terms */
+sph_status sphi_rhs_host_terms(sphi_evaluation *e); /* the host's pair sums */
 sph_status sphi_rhs_stress_rates(sphi_evaluation *e); /* materials on the velocity gradients */
 void sphi_rhs_pointwise(sphi_evaluation *e);          /* motion, XSPH, body force */
 
