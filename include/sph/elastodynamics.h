@@ -28,7 +28,8 @@
  *   SUMMED         no (t), to rounding otherwise   no (t); otherwise as above
  *   DIFFERENCE     no           no
  *
- * Viscosity and artificial stress keep momentum unless `corrected_damping`. None of the stress
+ * Viscosity and artificial stress keep momentum unless `corrected_damping`; with it the viscosity
+ * is not even sure to dissipate, and feeds slow modes after some thousand steps. None of the stress
  * forms keeps the angular momentum to rounding, for sigma g is not along x_ij; the ledger tells how
  * much each adds. At free surfaces SUMMED with `corrected` can gain energy: see the example
  * oscillating_beam. */
@@ -77,19 +78,25 @@ typedef struct sph_elastodynamics_options {
   double alpha, beta;        /* Monaghan's viscosity >= 0, both 0: none; defaults 2.5 */
   double artificial_stress;  /* epsilon >= 0; 0: none; default 0.3. It softens tension: see term */
   int32_t artificial_power;  /* n; default 4 */
+  double artificial_spacing; /* f = 1 at this distance, in dp, > 0; default 1. At 0.75 it acts on
+                              * pairs that come too close, and softens tension by a quarter only */
   double xsph;               /* epsilon >= 0; default 0 */
   double body_force[3];      /* per mass; default 0 */
-  double wave_speed;         /* > 0: field C of every particle, e.g. sqrt(E/rho) as in the sources;
-                              * 0 (default): the material's, the true longitudinal one */
-  int32_t integrator;        /* SPH_INTEGRATOR_* but BUTCHER; default RKC */
-  int32_t stage_rule;        /* of RKC: SPH_STAGES_* but RADIUS; default CFL */
-  int32_t stages;            /* FIXED: 2..100 */
-  double cfl;                /* of stable_dt() > 0; default 1. With CONSERVATIVE, dp/h = 1/1.5 and
-                              * alpha = 2.5, RKC by the rule CFL holds to about 1.5, with
-                              * corrected_damping to 2.5 */
-  int32_t neighbors;         /* SPH_NEIGHBORS_*; default VERLET */
-  double skin;               /* VERLET: in units of the smallest spacing, >= 0; default 0.3 */
-  int32_t periodic[3];       /* as in sph_neighbors_options, with the box below */
+  double wave_speed; /* > 0: of every phase, e.g. sqrt(E/rho) as in the sources; 0 (default): the
+                      * material's, the true longitudinal one */
+  int32_t surface_damping; /* default 1: field C, which the viscosity reads, is the wave speed times
+                            * max(1, tr(B_i^-1) / dim) of the start. At free surfaces corrected
+                            * gradients are stiffer by this factor while half of the neighbours
+                            * that damp are missing; without it RKC becomes unstable there beyond
+                            * CFL 1.5. 0: C is the wave speed */
+  int32_t integrator;      /* SPH_INTEGRATOR_* but BUTCHER; default RKC */
+  int32_t stage_rule;      /* of RKC: SPH_STAGES_* but RADIUS; default CFL */
+  int32_t stages;          /* FIXED: 2..100 */
+  double cfl;              /* of stable_dt() > 0; default 1. With alpha = 2.5, surface_damping and
+                            * artificial stress, RKC by the rule CFL holds to 2.5 */
+  int32_t neighbors;       /* SPH_NEIGHBORS_*; default VERLET */
+  double skin;             /* VERLET: in units of the smallest spacing, >= 0; default 0.3 */
+  int32_t periodic[3];     /* as in sph_neighbors_options, with the box below */
   double box_lo[3], box_hi[3];
   int32_t position_field; /* SPH_FIELD_X (default), or SPH_FIELD_X0: all pairs and gradients of
                            * the configuration at the start, the total Lagrangian form that He
@@ -137,8 +144,9 @@ SPH_API sph_status sph_elastodynamics_set_finish(sph_elastodynamics *solid, sph_
  * (the first is named). SPH_ERR_NOMEM. The scheme cannot step after a failure. Since 0.1. */
 SPH_API sph_status sph_elastodynamics_start(sph_elastodynamics *solid, double t);
 
-/* cfl * min h_i / (h_ratio (c_i + |v_i|)), that is cfl dp / c. O(n). SPH_ERR_STATE: not started;
- * and what sph_cfl_step() answers. Since 0.1. */
+/* cfl * min h_i / (h_ratio (c + |v_i|)) with the wave speed c of the phase, that is cfl dp / c for
+ * slow particles. O(n). SPH_ERR_STATE: not started; SPH_ERR_NUMERIC: no finite positive step comes
+ * out. Since 0.1. */
 SPH_API sph_status sph_elastodynamics_stable_dt(const sph_elastodynamics *solid, double *dt);
 
 /* One step. info may be NULL. SPH_ERR_STATE: not started; and what sph_integrator_step() answers;

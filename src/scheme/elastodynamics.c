@@ -19,6 +19,8 @@ static const sph_elastodynamics_options defaults = {.size = sizeof defaults,
                                                     .beta = 2.5,
                                                     .artificial_stress = 0.3,
                                                     .artificial_power = 4,
+                                                    .artificial_spacing = 1.0,
+                                                    .surface_damping = 1,
                                                     .integrator = SPH_INTEGRATOR_RKC,
                                                     .stage_rule = SPH_STAGES_CFL,
                                                     .stages = 2,
@@ -92,7 +94,7 @@ sph_status sphi_scheme_artificial_stress(const sph_elastodynamics *solid, sph_rh
   sph_term term = term_of(SPH_TERM_ARTIFICIAL_STRESS, 0, o->corrected_damping);
   term.epsilon = o->artificial_stress;
   term.power = o->artificial_power;
-  term.spacing_ratio = 1.0 / o->h_ratio;
+  term.spacing_ratio = o->artificial_spacing / o->h_ratio;
   return o->artificial_stress > 0.0 ? sph_rhs_add(rhs, &term) : SPH_OK;
 }
 
@@ -331,11 +333,6 @@ sph_status sph_elastodynamics_set_finish(sph_elastodynamics *solid, sph_rhs_hook
 }
 
 /* ---- steps ------------------------------------------------------------------------------- */
-
-sph_status sph_elastodynamics_stable_dt(const sph_elastodynamics *solid, double *dt) {
-  sph_status s = sphi_scheme_check(solid, 1);
-  return s ? s : sph_cfl_step(solid->set, solid->options.cfl / solid->options.h_ratio, dt);
-}
 
 sph_status sph_elastodynamics_step(sph_elastodynamics *solid, double dt, sph_step_info *info) {
   sph_status s = sphi_scheme_check(solid, 1);

@@ -1,4 +1,4 @@
-/* The start of a run: fields that follow from options and materials, list, integrator. */
+/* The start of a run: fields that follow from options and materials, list, integrator; the step. */
 #include "scheme_impl.h"
 
 #include <math.h>
@@ -106,6 +106,29 @@ static sph_status fill_speed(sph_elastodynamics *solid, double *largest) {
   return s;
 }
 
+/* The corrected gradient of a surface particle is B^-1 times that of its few neighbours. */
+static sph_status raise_speed(sph_elastodynamics *solid) {
+  const size_t dim = (size_t)solid->options.dim;
+  const size_t n = (size_t)sph_particles_real_count(solid->set);
+  sph_operands a;
+  double *c;
+  if (!solid->options.surface_damping || !solid->options.corrected) return SPH_OK;
+  sph_operands_init(&a);
+  sph_status s = sphi_buffer_reserve(solid->base.ctx, &solid->scratch,
+                                     sphi_mul(n, (2 * dim * dim + dim) * sizeof(double)));
+  if (!s) s = sph_particles_field(solid->set, SPH_FIELD_C, &c);
+  if (!s) s = sph_neighbors_build(solid->list, solid->set);
+  if (!s) s = sph_operands_from_set(solid->set, &a);
+  double *matrix = solid->scratch.ptr;
+  if (!s) s = sph_gradient_matrix(solid->list, solid->kernel, &a, matrix, NULL, NULL);
+  for (size_t i = 0; !s && i < n; ++i) {
+    double trace = 0.0;
+    for (size_t k = 0; k < dim; ++k) trace += matrix[i * dim * dim + k * (dim + 1)];
+    c[i] *= fmax(1.0, trace / (double)dim);
+  }
+  return s;
+}
+
 static sph_status copy_field(sph_particles *set, int32_t from, int32_t to) {
   double *a, *b;
   sph_status s = sph_particles_field(set, from, &a);
@@ -158,9 +181,36 @@ sph_status sph_elastodynamics_start(sph_elastodynamics *solid, double t) {
   solid->started = 0;
   s = fill_fields(solid, &speed);
   if (!s) s = sphi_scheme_make_parts(solid, smallest(solid, SPH_FIELD_SPACING), speed);
+  if (!s) s = raise_speed(solid);
   if (s) return s;
   solid->time = t;
   solid->started = 1;
   sphi_ledger_start(solid);
+  return SPH_OK;
+}
+
+static double speed_of(const sph_elastodynamics *solid, const double *v, int64_t i, int32_t phase) {
+  double square = 0.0;
+  for (int32_t a = 0; a < solid->options.dim; ++a)
+    square += v[i * solid->options.dim + a] * v[i * solid->options.dim + a];
+  return solid->speed[phase] + sqrt(square);
+}
+
+sph_status sph_elastodynamics_stable_dt(const sph_elastodynamics *solid, double *dt) {
+  sph_status s = sphi_scheme_check(solid, 1);
+  if (s) return s;
+  if (!dt) return sphi_fail(solid->base.ctx, SPH_ERR_ARG, "elastodynamics: dt is NULL");
+  const double *h = sph_particles_field_const(solid->set, SPH_FIELD_H);
+  const double *v = sph_particles_field_const(solid->set, SPH_FIELD_V);
+  const int32_t *phase = sph_particles_phases(solid->set);
+  double least = INFINITY;
+  for (int64_t i = 0; i < sph_particles_real_count(solid->set); ++i) {
+    const double time = h[i] / speed_of(solid, v, i, phase[i]);
+    if (!(time >= least)) least = time; /* a NaN stays */
+  }
+  least *= solid->options.cfl / solid->options.h_ratio;
+  if (!positive(least))
+    return sphi_fail(solid->base.ctx, SPH_ERR_NUMERIC, "elastodynamics: stable step %g", least);
+  *dt = least;
   return SPH_OK;
 }
