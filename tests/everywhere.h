@@ -434,6 +434,9 @@ EW_SIMPLE(touch, sph_particles_touch(w->set, SPH_FIELD_V))
 EW_SIMPLE(build, sph_neighbors_build(w->list, w->set))
 EW_SIMPLE(from_set, sph_operands_from_set(w->set, &w->a))
 EW_SIMPLE(artificial, sph_artificial_stress(w->dim, w->n, w->a.sigma, w->a.rho, 1.0, 0.3, w->out))
+EW_SIMPLE(h_density, sph_h_from_density(w->ctx, w->dim, w->n, w->a.h, w->a.rho, w->a.m, w->out))
+EW_SIMPLE(h_rate, sph_h_rate(w->ctx, w->dim, w->n, w->a.h, w->a.rho, w->a.p, w->out))
+EW_SIMPLE(h_spacing, sph_h_from_spacing(w->ctx, w->n, 1.5, w->a.h, w->out))
 EW_SIMPLE(principal, sph_principal_stresses(w->dim, w->n, w->a.sigma, w->out, w->more))
 EW_SIMPLE(recapture, sph_ghosts_recapture(w->ghosts, w->set, &w->number))
 EW_SIMPLE(save, sph_integrator_save(w->it, w->set))
@@ -507,6 +510,9 @@ static const ew_entry ew_entries[] = {
     {"sph_piola_divergence", ew_piola, EW_PAIRS, 1},
     {"sph_principal_stresses", ew_principal, 0, 0},
     {"sph_ghosts_recapture", ew_recapture, 0, 0},
+    {"sph_h_from_density", ew_h_density, 0, 0},
+    {"sph_h_rate", ew_h_rate, 0, 0},
+    {"sph_h_from_spacing", ew_h_spacing, 0, 0},
     {"sph_rhs_create", ew_rhs_create, 0, 1},
     {"sph_rhs_add sph_rhs_add_host sph_rhs_set_material sph_rhs_set_prepare sph_rhs_set_finish",
      ew_add_term, 0, 1},
