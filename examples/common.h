@@ -51,6 +51,13 @@ static inline void log_to_stderr(void *user, int32_t level, const char *text) {
   fprintf(stderr, "libsph: %s\n", text);
 }
 
+/* A progress line on the terminal, of work that takes longer than two seconds. */
+static inline void show_progress(double fraction, const char *what) {
+  static sph_progress_line line;
+  if (line.size == 0) sph_progress_line_init(&line, stderr);
+  (void)sph_progress_terminal(&line, fraction, what);
+}
+
 /* L1 = sum|u - exact| / sum|exact|, L2 = sqrt(sum (u - exact)^2 / sum exact^2). */
 typedef struct norms {
   double l1, l2;

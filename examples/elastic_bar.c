@@ -231,9 +231,11 @@ static outcome bar_run(bar *b, double t) {
     const double now = (double)k * dt, step = k < full ? dt : t - now;
     if (step < 1e-9 * dt) break;
     if (sph_integrator_step(b->integrator, b->set, now, step, &info) != SPH_OK) return r;
+    show_progress((double)k / (double)full, "steps");
     if (k < full) r.stages = info.stages;
     r.evaluations += info.evaluations;
   }
+  show_progress(1.0, "steps");
   r.seconds = (double)(clock() - start) / CLOCKS_PER_SEC;
   r.end_stress = b->sigma[b->o.n - 1];
   exact_state(b, t);

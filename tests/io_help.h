@@ -210,4 +210,36 @@ static CHECK_UNUSED sph_particles *io_set(sph_context *ctx, int32_t dim, int64_t
   return set;
 }
 
+/* One of each handle in a folder, which then holds the file of the history. */
+typedef struct io_setup {
+  sph_context *ctx;
+  sph_particles *set;
+  sph_series *series;
+  sph_history *history;
+} io_setup;
+
+static CHECK_UNUSED const char *const io_names[] = {"t", "e"};
+
+static CHECK_UNUSED io_setup io_open(sph_context *ctx) {
+  io_setup s = {.ctx = ctx, .set = io_set(ctx, 2, 400, 40)};
+  io_open_folder();
+  check_ok(sph_series_create(ctx, io_path("run.pvd"), &s.series));
+  check_ok(sph_history_create(ctx, io_path("h.csv"), 2, io_names, &s.history));
+  return s;
+}
+static CHECK_UNUSED void io_close(io_setup *s) {
+  sph_history_destroy(s->history);
+  sph_series_destroy(s->series);
+  sph_particles_destroy(s->set);
+  sph_context_destroy(s->ctx);
+  io_close_folder();
+}
+
+static CHECK_UNUSED void io_refused(const io_setup *s, sph_status got, sph_status want,
+                                    const char *sentence) {
+  check_status(got, want);
+  if (!strstr(sph_context_last_error(s->ctx), sentence))
+    fail_msg("'%s' does not say '%s'", sph_context_last_error(s->ctx), sentence);
+}
+
 #endif

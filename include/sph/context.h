@@ -32,8 +32,9 @@ typedef void (*sph_parallel_for_fn)(void *user, int64_t count, int64_t grain, sp
 enum { SPH_LOG_ERROR = 1, SPH_LOG_WARNING = 2, SPH_LOG_INFO = 3, SPH_LOG_DEBUG = 4 };
 typedef void (*sph_log_fn)(void *user, int32_t level, const char *text);
 
-/* Progress of a long call, 0 <= fraction <= 1, on the calling thread. A nonzero return asks the
- * call to stop; it then answers SPH_ERR_CALLBACK. */
+/* Progress of a long call (neighbour builds, files being written), 0 <= fraction <= 1, on the
+ * calling thread. It must not change or destroy what the call works on. A nonzero return asks the
+ * call to stop; it then answers SPH_ERR_CALLBACK. A ready one for terminals is in io.h. */
 typedef int32_t (*sph_progress_fn)(void *user, double fraction, const char *what);
 
 /* Instruction sets of the pair loop. AUTO takes the best that this machine runs. */

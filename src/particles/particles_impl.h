@@ -12,7 +12,7 @@ const char *sphi_field_name(const sph_particles *set, int32_t field);
 const int32_t *sphi_particles_phases(const sph_particles *set);
 const int32_t *sphi_particles_roles(const sph_particles *set);
 
-/* Every field has an id below this. */
+/* Every field has an id below this: built-in ones below 64, the host's above. */
 enum { SPHI_FIELD_IDS = 128 };
 
 /* What the components of a field are. The host's own fields are plain. */

@@ -1,8 +1,6 @@
 /* Particle files for ParaView, read back by a reader of our own, and by VTK's where it is. */
 #include "../io_help.h"
 
-#include <sph/io.h>
-
 /* --- arrays ------------------------------------------------------------------------------ */
 
 static const double *values_of(const sph_particles *set, const char *name) {
@@ -56,6 +54,18 @@ static void expect_sigma(const vtp_file *v, const sph_particles *set) {
     for (int c = 0; c < 9; c++) expect_entry_of(a, i, c, tensor(values + i * n, d, c / 3, c % 3));
 }
 
+static void expect_matrix(const vtp_file *v, const sph_particles *set, const char *name) {
+  const vtp_array *a = vtp_find(v, name);
+  const double *values = values_of(set, name);
+  int32_t d = sph_particles_dim(set);
+  if (!a) fail_msg("there is no array %s", name);
+  assert_int_equal(a->components, 9);
+  for (int64_t i = 0; i < v->points; i++)
+    for (int r = 0; r < 3; r++)
+      for (int c = 0; c < 3; c++)
+        expect_entry_of(a, i, 3 * r + c, r < d && c < d ? values[(i * d + r) * d + c] : 0.0);
+}
+
 static void expect_marks(const vtp_file *v, sph_particles *set) {
   const vtp_array *id = vtp_find(v, "id"), *role = vtp_find(v, "role"),
                   *phase = vtp_find(v, "phase");
@@ -88,6 +98,8 @@ static void expect_all(const vtp_file *v, sph_particles *set) {
     expect_vector(v, set, vectors[k], vectors[k]);
   expect_vector(v, set, "Points", "x");
   expect_sigma(v, set);
+  expect_matrix(v, set, "F");
+  expect_matrix(v, set, "PK");
   expect_marks(v, set);
   expect_vertices(v);
   assert_null(vtp_find(v, "e")); /* never created */

@@ -40,8 +40,13 @@ def plain(name, columns, array):
 
 def tensor(name):
     letters = "xyz"[:dim]
-    pairs = [sorted((a, b), key="xyz".index) for a in "xyz" for b in "xyz"]
-    return [f"{name}_{a}{b}" if a in letters and b in letters else None for a, b in pairs]
+    columns = []
+    for a in "xyz":
+        for b in "xyz":
+            full, packed = f"{name}_{a}{b}", f"{name}_{min(a, b)}{max(a, b)}"
+            known = full if full in column else packed
+            columns.append(known if a in letters and b in letters else None)
+    return columns
 
 
 expect("points", data.GetNumberOfPoints(), len(rows))
@@ -54,7 +59,7 @@ for k in range(point_data.GetNumberOfArrays()):
     name, width = array.GetName(), array.GetNumberOfComponents()
     if name in vectors:
         columns = [f"{name}_{a}" if a in "xyz"[:dim] else None for a in "xyz"]
-    elif name == "sigma":
+    elif f"{name}_xx" in column:
         columns = tensor(name)
     else:
         columns = [name] if width == 1 else [f"{name}_{c}" for c in range(width)]
