@@ -7,11 +7,11 @@
  *
  *   dv_i/dt = sum_j m_j (sigma_i B_i^-1 / rho_i^2 + sigma_j B_j^-1 / rho_j^2) g_ij,
  *
- * the adjoint of the velocity gradient: what the stress does on the strain rate is to the last bit
- * what the forces do on the velocities, so that nothing can grow, and a boundary without forces is
- * free of traction by itself. Volumes must then be those of the clipped cells. (The difference form
- * with held stresses, which reproduces the one-dimensional tables of He, is unstable here, on every
- * layout and at any time step.) */
+ * the adjoint of the velocity gradient: the work of the stress on the strain rate is that of the
+ * forces on the velocities, so that small vibrations cannot grow, and a boundary without forces is
+ * free of traction by itself. For accuracy volumes must then be those of the clipped cells. (The
+ * difference form with held stresses, which reproduces the one-dimensional tables of He, is
+ * unstable here, on every layout and at any time step.) */
 #ifndef EXAMPLES_PLATE_H
 #define EXAMPLES_PLATE_H
 
@@ -31,7 +31,9 @@ typedef struct plate_options {
   int whole;         /* all four quarters, without ghosts */
   int constant_mass; /* rho A / N, as published, instead of rho times the Voronoi area */
   double h_ratio;    /* h / spacing */
-  int moving;        /* positions advance; else pairs and kernels are those at rest */
+  double viscosity;  /* alpha = beta */
+  double artificial; /* epsilon of the artificial stress */
+  int moving;        /* positions and densities advance; else pairs and kernels are those at rest */
   int32_t scheme;    /* SPH_INTEGRATOR_* */
   double cfl;        /* c dt / smallest spacing, c = sqrt(E / rho) */
   int32_t stages;    /* of RKC */
@@ -47,7 +49,8 @@ typedef struct plate {
   sph_neighbors *list;
   sph_rhs *rhs;
   sph_integrator *integrator;
-  double *x, *v, *sigma, *m, *rest; /* fields of the set; rest: where the particles were */
+  double *x, *v, *sigma, *rho, *m; /* fields of the set */
+  double *rest;                    /* where the particles were */
 } plate;
 
 /* ---- symmetry ---------------------------------------------------------------------------- */
@@ -67,6 +70,7 @@ static int32_t mirror_ghosts(void *user, double t, sph_particles *set, const sph
       p->v[2 * g + a] = sign[a] * p->v[2 * i + a];
       p->sigma[3 * g + a] = p->sigma[3 * i + a];
     }
+    p->rho[g] = p->rho[i];
     p->sigma[3 * g + 2] = sign[0] * sign[1] * p->sigma[3 * i + 2];
   }
   return p->o.moving ? sph_particles_touch(set, SPH_FIELD_X) : SPH_OK;
@@ -116,10 +120,11 @@ static double *make_layout(plate *p) {
   return x;
 }
 
-/* Areas of the whole plate: a particle on a plane of symmetry has the other half too. */
+/* Areas of the whole plate: a particle on a plane of symmetry has the other half too. The mean is
+ * that of the whole as well, where it counts half as often as one beside the plane. */
 static double *make_volumes(const plate *p, const double *x) {
   sph_region_options region;
-  double total = 0.0, *volume = malloc((size_t)p->n * sizeof *volume);
+  double total = 0.0, count = 0.0, *volume = malloc((size_t)p->n * sizeof *volume);
   if (!volume) exit(2);
   sph_region_options_init(&region);
   region.dim = 2;
@@ -128,11 +133,16 @@ static double *make_volumes(const plate *p, const double *x) {
   region.hole = p->o.hole;
   need(p->ctx, sph_layout_volumes(p->ctx, &region, p->n, x, volume));
   for (int64_t i = 0; i < p->n; ++i) {
+    double weight = 1.0;
     for (int a = 0; a < 2 && !p->o.whole; ++a)
-      if (x[2 * i + a] == 0.0) volume[i] *= 2.0;
-    total += volume[i];
+      if (x[2 * i + a] == 0.0) {
+        volume[i] *= 2.0;
+        weight *= 0.5;
+      }
+    total += weight * volume[i];
+    count += weight;
   }
-  for (int64_t i = 0; i < p->n && p->o.constant_mass; ++i) volume[i] = total / (double)p->n;
+  for (int64_t i = 0; i < p->n && p->o.constant_mass; ++i) volume[i] = total / count;
   return volume;
 }
 
@@ -143,17 +153,18 @@ static double local_spacing(const plate *p, const double *at) {
 }
 
 static void fill_fields(plate *p, const double *x, const double *volume, const double *h) {
-  double *rho = field(p->ctx, p->set, SPH_FIELD_RHO), *c = field(p->ctx, p->set, SPH_FIELD_C);
+  double *c = field(p->ctx, p->set, SPH_FIELD_C);
   double *length = field(p->ctx, p->set, SPH_FIELD_H);
   p->x = field(p->ctx, p->set, SPH_FIELD_X);
   p->rest = field(p->ctx, p->set, SPH_FIELD_X0);
   p->v = field(p->ctx, p->set, SPH_FIELD_V);
   p->sigma = field(p->ctx, p->set, SPH_FIELD_SIGMA);
+  p->rho = field(p->ctx, p->set, SPH_FIELD_RHO);
   p->m = field(p->ctx, p->set, SPH_FIELD_M);
   for (int64_t k = 0; k < p->n + p->ghosts; ++k) {
     const int64_t i = k < p->n ? k : p->origin[k - p->n];
     p->m[k] = density * volume[i];
-    rho[k] = density;
+    p->rho[k] = density;
     c[k] = p->c;
     length[k] = h[i];
   }
@@ -206,13 +217,16 @@ static void make_rhs(plate *p) {
   need(p->ctx, sph_rhs_create(p->ctx, kernel, NULL, &p->rhs));
   sph_term_init(&term);
   if (p->o.moving) add_term(p, &term, SPH_TERM_MOTION);
+  term.form = SPH_CONTINUITY_VOLUME;
+  if (p->o.moving) add_term(p, &term, SPH_TERM_CONTINUITY);
+  term.form = 0;
   add_term(p, &term, SPH_TERM_STRESS_RATE);
   term.form = SPH_STRESS_CONSERVATIVE;
   add_term(p, &term, SPH_TERM_STRESS);
   sph_term_init(&term);
-  term.alpha = term.beta = 2.5;
+  term.alpha = term.beta = p->o.viscosity;
   add_term(p, &term, SPH_TERM_MONAGHAN);
-  term.epsilon = 0.3;
+  term.epsilon = p->o.artificial;
   term.spacing_ratio = 1.0 / p->o.h_ratio;
   add_term(p, &term, SPH_TERM_ARTIFICIAL_STRESS);
   need(p->ctx, sph_rhs_set_material(p->rhs, 0, hooke));
@@ -230,6 +244,7 @@ static void make_integrator(plate *p) {
   options.stability_check_interval = 0;
   need(p->ctx, sph_integrator_create(p->ctx, &options, &p->integrator));
   if (p->o.moving) need(p->ctx, sph_integrator_bind_field(p->integrator, SPH_FIELD_X));
+  if (p->o.moving) need(p->ctx, sph_integrator_bind_field(p->integrator, SPH_FIELD_RHO));
   need(p->ctx, sph_integrator_bind_field(p->integrator, SPH_FIELD_V));
   need(p->ctx, sph_integrator_bind_field(p->integrator, SPH_FIELD_SIGMA));
   need(p->ctx, sph_integrator_set_rhs(p->integrator, p->rhs, p->list));
