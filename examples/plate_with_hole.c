@@ -118,7 +118,7 @@ static void loaded_create(loaded_plate *l, const run_options *o) {
                                 .h_ratio = o->h_ratio,
                                 .viscosity = 2.5,
                                 .artificial = 0.3,
-                                .moving = o->moving,
+                                .motion = o->moving ? PLATE_MOVING : PLATE_FROZEN,
                                 .scheme = o->scheme,
                                 .cfl = o->cfl,
                                 .stages = o->stages};

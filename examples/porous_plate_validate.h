@@ -1,4 +1,9 @@
-/* Part of porous_plate.c: what He 2015, 5.4 says about his pictures, and symmetry. */
+/* Part of porous_plate.c: what He 2015, 5.4 says about his pictures, and symmetry.
+ *
+ * He moves the kernels with the particles (Hooke's law as a rate, Jaumann). Such runs agree with
+ * the total-Lagrangian one as long as they live, but tear at the stretched rims of the corner
+ * holes, by the tensile instability; how far they come is reported. Less of it: equal masses, more
+ * artificial stress and viscosity, h = 1.5 dp. */
 #ifndef EXAMPLES_POROUS_PLATE_VALIDATE_H
 #define EXAMPLES_POROUS_PLATE_VALIDATE_H
 
@@ -6,42 +11,45 @@
 
 enum { KEYS = 200 };
 
-static void make_keys(char keys[KEYS], const char *quantity, double dp, const outcome *r) {
-  snprintf(keys, KEYS, "case=porous_plate quantity=%s dp=%g n=%lld scheme=rkc cfl=2.5", quantity,
-           dp, (long long)r->particles);
+static void make_keys(char keys[KEYS], const char *quantity, const plate_options *o,
+                      const outcome *r) {
+  snprintf(keys, KEYS, "case=porous_plate quantity=%s kernels=%s dp=%g n=%lld scheme=rkc cfl=%g",
+           quantity, o->motion == PLATE_TOTAL ? "reference" : "moving", o->dp,
+           (long long)r->particles, o->cfl);
 }
 
-static int above(const char *quantity, double dp, const outcome *r, double measured, double bound) {
+static int above(const char *quantity, const plate_options *o, const outcome *r, double measured,
+                 double bound) {
   char keys[KEYS];
-  make_keys(keys, quantity, dp, r);
+  make_keys(keys, quantity, o, r);
   return result_bound(keys, measured, 1, bound, T54);
 }
 
-/* The quarter: it completes, and the holes rank as published. */
-static int validate_quarter(double dp) {
-  static const char reason[] = "only pictures are published";
-  const outcome r = run_once(dp, 1, 0);
+/* No figures are published: those of a run with the double spacing stand in. */
+static int compare_hole(const char *quantity, const plate_options *o, const outcome *r,
+                        double measured, double coarse) {
+  char keys[KEYS];
+  make_keys(keys, quantity, o, r);
+  return result_line(keys, measured, coarse, "dp = .05", 0.02, 0);
+}
+
+/* The quarter: it completes, the holes rank as published, and the spacing does not matter. */
+static int validate_quarter(const plate_options *o, const outcome *coarse) {
+  const outcome r = run_once(o, 0);
   char keys[KEYS];
   int failed = 0;
-  make_keys(keys, "completed", dp, &r);
+  make_keys(keys, "completed", o, &r);
   failed += result_line(keys, r.completed, 1.0, T54, 0.0, 0);
-  make_keys(keys, "mean_strain", dp, &r);
+  make_keys(keys, "mean_strain", o, &r);
   failed += result_line(keys, r.strain, 0.2, T54, 1e-6, 0);
-  failed += above("hole_5_over_hole_6", dp, &r, r.centre / r.side_hole, 1.0);
-  failed += above("hole_1_over_hole_6", dp, &r, r.corner / r.side_hole, 1.0);
-  failed += above("hole_6_over_hole_2", dp, &r, r.side_hole / r.top_hole, 1.0);
-  failed += above("tension_above_hole_5_over_E", dp, &r, r.rim / young, 0.0);
-  make_keys(keys, "hole_5", dp, &r);
-  result_report(keys, r.centre, NAN, T54, reason);
-  make_keys(keys, "hole_1", dp, &r);
-  result_report(keys, r.corner, NAN, T54, reason);
-  make_keys(keys, "hole_6", dp, &r);
-  result_report(keys, r.side_hole, NAN, T54, reason);
-  make_keys(keys, "hole_2", dp, &r);
-  result_report(keys, r.top_hole, NAN, T54, reason);
-  make_keys(keys, "seconds", dp, &r);
-  result_report(keys, r.seconds, NAN, T54, "depends on the machine");
-  return failed;
+  failed += above("hole_5_over_hole_6", o, &r, r.centre / r.side_hole, 1.0);
+  failed += above("hole_1_over_hole_6", o, &r, r.corner / r.side_hole, 1.0);
+  failed += above("hole_6_over_hole_2", o, &r, r.side_hole / r.top_hole, 1.0);
+  failed += above("tension_above_hole_5_over_E", o, &r, r.rim / young, 0.0);
+  failed += compare_hole("hole_5", o, &r, r.centre, coarse->centre);
+  failed += compare_hole("hole_1", o, &r, r.corner, coarse->corner);
+  failed += compare_hole("hole_6", o, &r, r.side_hole, coarse->side_hole);
+  return failed + compare_hole("hole_2", o, &r, r.top_hole, coarse->top_hole);
 }
 
 /* Largest difference between a particle of the whole plate and its image in an axis, in m. */
@@ -61,39 +69,61 @@ static double asymmetry(const plate *p) {
 }
 
 /* The whole plate without ghosts stays symmetric, and agrees with the quarter. */
-static int validate_symmetry(double dp, double until) {
+static int validate_symmetry(outcome *part) {
+  plate_options coarse = total, all = total;
   plate whole, quarter;
   char keys[KEYS];
   double apart = 0.0;
-  driven_create(&whole, dp, 1, 1);
-  driven_create(&quarter, dp, 0, 1);
-  const outcome r = run(&whole, until, 0);
-  (void)run(&quarter, until, 0);
+  coarse.dp = all.dp = 0.05;
+  all.whole = 1;
+  driven_create(&whole, &all);
+  driven_create(&quarter, &coarse);
+  const outcome r = run(&whole, end_time, 0);
+  *part = run(&quarter, end_time, 0);
   for (int64_t i = 0; i < quarter.n; ++i) {
     const int64_t j = nearest(&whole, quarter.rest[2 * i], quarter.rest[2 * i + 1]);
     for (int a = 0; a < 2; ++a)
       apart = fmax(apart, fabs(quarter.x[2 * i + a] - whole.x[2 * j + a]));
   }
-  make_keys(keys, "asymmetry_of_the_whole", dp, &r);
-  const int failed = result_bound(keys, asymmetry(&whole) / side, -1, 1e-6, "symmetry");
-  make_keys(keys, "quarter_from_whole", dp, &r);
+  make_keys(keys, "asymmetry_of_the_whole", &all, &r);
+  int failed = result_bound(keys, r.completed ? asymmetry(&whole) : NAN, -1, 1e-6, "symmetry");
+  make_keys(keys, "quarter_from_whole", &coarse, part);
+  failed += result_bound(keys, part->completed ? apart : NAN, -1, 1e-6, "symmetry");
   plate_destroy(&whole);
   plate_destroy(&quarter);
-  return failed + result_bound(keys, apart / side, -1, 1e-6, "symmetry");
+  return failed;
 }
 
-/* With the published viscosity and artificial stress: how far it goes. */
-static void report_published(double dp) {
+/* Kernels that move, as published and as it takes to get to the end. */
+static void report_moving(const outcome *coarse) {
   char keys[KEYS];
-  const outcome r = run_once(dp, 0, 0);
-  make_keys(keys, "strain_reached_alpha_2.5_epsilon_0.3", dp, &r);
-  result_report(keys, r.strain, 0.2, T54, "buckles, then tears at the rims of the corner holes");
+  plate_options o = total;
+  o.motion = PLATE_MOVING;
+  o.constant_mass = 1;
+  o.h_ratio = 1.5;
+  o.cfl = 2.5;
+  o.stages = 8;
+  for (int stiff = 0; stiff < 2; ++stiff) {
+    o.viscosity = stiff ? 5.0 : 2.5;
+    o.artificial = stiff ? 0.5 : 0.3;
+    const outcome r = run_once(&o, 0);
+    make_keys(keys, stiff ? "strain_reached_alpha_5_epsilon_0.5" : "strain_reached_as_published",
+              &o, &r);
+    result_report(keys, r.strain, 0.2, T54, "tensile instability at the rims of the corner holes");
+    make_keys(keys, "hole_5", &o, &r);
+    if (r.completed) result_report(keys, r.centre, coarse->centre, "kernels at rest", "other law");
+    make_keys(keys, "hole_1", &o, &r);
+    if (r.completed) result_report(keys, r.corner, coarse->corner, "kernels at rest", "other law");
+  }
 }
 
 static int validate(int full) {
-  const double dp = full ? 0.0124 : 0.025;
-  const int failed = validate_quarter(dp) + validate_symmetry(0.05, end_time);
-  report_published(0.025);
+  plate_options fine = total;
+  outcome coarse;
+  fine.dp = 0.0124;
+  int failed = validate_symmetry(&coarse) + validate_quarter(&total, &coarse);
+  if (full) failed += validate_quarter(&fine, &coarse);
+  report_moving(&coarse);
   return failed;
 }
 
