@@ -110,9 +110,18 @@ static int32_t load_and_damp(void *user, double t, sph_particles *set, const sph
 /* ---- running ----------------------------------------------------------------------------- */
 
 static void loaded_create(loaded_plate *l, const run_options *o) {
-  const plate_options common = {1,         l->hole,          o->layout,  o->dp,
-                                0,         o->constant_mass, o->h_ratio, o->moving,
-                                o->scheme, o->cfl,           o->stages};
+  const plate_options common = {.holes = 1,
+                                .hole = l->hole,
+                                .layout = o->layout,
+                                .dp = o->dp,
+                                .constant_mass = o->constant_mass,
+                                .h_ratio = o->h_ratio,
+                                .viscosity = 2.5,
+                                .artificial = 0.3,
+                                .motion = o->moving ? PLATE_MOVING : PLATE_FROZEN,
+                                .scheme = o->scheme,
+                                .cfl = o->cfl,
+                                .stages = o->stages};
   l->hole[0] = l->hole[1] = 0.0;
   l->hole[2] = o->radius;
   plate_create(&l->p, &common);
