@@ -77,8 +77,61 @@ static void pack_one(const sphi_run *run, int64_t i, double *rec) {
   if (y->f >= 0) pack_field(run, i, rec);
 }
 
+static void add_stream(sphi_streams *s, const double *base, int64_t doubles) {
+  if (!base || s->count == SPHI_MAX_STREAMS) return;
+  s->at[s->count].base = (const char *)base;
+  s->at[s->count++].stride = doubles * (int64_t)sizeof(double);
+}
+
+static void add_inputs(sphi_run *run) {
+  const sphi_record *y = &run->layout;
+  const sphi_sweep *sw = run->sweep;
+  const sph_operands *a = sw->a;
+  int d = a->dim, sym = sphi_sym(d);
+  int stress = y->s >= 0 || y->t >= 0;
+  add_stream(&run->in, a->x, d);
+  if (y->v >= 0) add_stream(&run->in, a->v, d);
+  if (y->rho >= 0 || y->vol >= 0 || y->p >= 0 || stress) add_stream(&run->in, a->rho, 1);
+  if (y->m >= 0 || y->vol >= 0) add_stream(&run->in, a->m, 1);
+  if (y->p >= 0) add_stream(&run->in, a->p, 1);
+  if (y->h >= 0) add_stream(&run->in, a->h, 1);
+  if (y->c >= 0) add_stream(&run->in, a->c, 1);
+  if (y->q >= 0) add_stream(&run->in, sw->q, 1);
+  if (stress) add_stream(&run->in, a->sigma, sym);
+  if (y->t >= 0) add_stream(&run->in, a->gradient_matrix, d * d);
+  if (y->r >= 0) add_stream(&run->in, sw->art, sym);
+  if (y->f >= 0) add_stream(&run->in, sw->f, sw->f_stride);
+}
+
+static void add_outputs(sphi_run *run) {
+  const uint32_t terms = run->spec.terms;
+  const sphi_sweep *sw = run->sweep;
+  int d = sw->a->dim;
+  if (terms & SPHI_DENSITY) add_stream(&run->out, sw->density, 1);
+  if (terms & SPHI_CONTINUITY) add_stream(&run->out, sw->drho, 1);
+  if (terms & SPHI_GRADV) add_stream(&run->out, sw->gradv, d * d);
+  if (terms & SPHI_ALL_FORCES) add_stream(&run->out, sw->dvdt, d);
+  if (terms & SPHI_XSPH) add_stream(&run->out, sw->xsph, d);
+  if (terms & SPHI_MATRIX) add_stream(&run->out, sw->matrix, d * d);
+  if (terms & SPHI_SHEPARD) add_stream(&run->out, sw->shepard, 1);
+  if (terms & SPHI_INTERP) add_stream(&run->out, sw->interp, sw->interp_stride);
+  if (terms & SPHI_GRADF) add_stream(&run->out, sw->gradf, sw->gradf_stride);
+}
+
+void sphi_streams_of(sphi_run *run) {
+  run->in.count = run->out.count = 0;
+  add_inputs(run);
+  add_outputs(run);
+}
+
+/* Far enough for the memory's latency at the pace of packing. */
+enum { AHEAD = 24 };
+
 void sphi_pack(const sphi_run *run, int64_t lo, int64_t hi) {
+  const uint32_t *order = run->list->order;
   int64_t stride = run->layout.quads * 4;
-  for (int64_t k = lo; k < hi; ++k)
-    pack_one(run, run->list->order[k], run->records + k * stride);
+  for (int64_t k = lo; k < hi; ++k) {
+    if (k + AHEAD < hi) sphi_prefetch(&run->in, order[k + AHEAD - 1], order[k + AHEAD], 0);
+    pack_one(run, order[k], run->records + k * stride);
+  }
 }

@@ -11,11 +11,23 @@ typedef struct sphi_record {
   int quads; /* record length / 4 */
 } sphi_record;
 
+/* Host arrays that are read or written a particle at a time. Where the host's order is not spatial
+ * every access misses the caches, so the lines are asked for some particles ahead. */
+enum { SPHI_MAX_STREAMS = 16 };
+typedef struct sphi_streams {
+  struct {
+    const char *base;
+    int64_t stride; /* bytes a particle */
+  } at[SPHI_MAX_STREAMS];
+  int count;
+} sphi_streams;
+
 typedef struct sphi_run {
   const sphi_sweep *sweep;
   const struct sph_neighbors *list;
   sphi_spec spec;
   sphi_record layout;
+  sphi_streams in, out;
   double *records; /* layout.quads * 4 doubles a particle, in sweep order */
   int64_t rows;    /* host indices from here on get no results */
   int32_t h_rule;
@@ -31,6 +43,9 @@ typedef void (*sphi_rows_fn)(const sphi_run *run, int64_t lo, int64_t hi);
 sphi_rows_fn sphi_rows_portable(sphi_spec *spec, int32_t dim);
 sphi_rows_fn sphi_rows_avx2(sphi_spec *spec, int32_t dim);
 sphi_rows_fn sphi_rows_avx512(sphi_spec *spec, int32_t dim);
+
+/* Which arrays the records are made of, and which the rows write. */
+void sphi_streams_of(sphi_run *run);
 
 /* Fill the records [lo, hi) from the host arrays. */
 void sphi_pack(const sphi_run *run, int64_t lo, int64_t hi);
@@ -76,6 +91,22 @@ SPHI_RUN_INLINE int sphi_needs_gradient(sphi_spec s) {
   return (s.terms & ~(uint32_t)(SPHI_DENSITY | SPHI_XSPH | SPHI_SHEPARD | SPHI_INTERP)) != 0;
 }
 SPHI_RUN_INLINE int sphi_sym(int dim) { return dim * (dim + 1) / 2; }
+
+/* Ask for the lines of host index `i`; not where it follows `before`, for those are on their way.
+ */
+SPHI_RUN_INLINE void sphi_prefetch(const sphi_streams *s, int64_t before, int64_t i, int write) {
+  if (i == before + 1) return;
+  for (int k = 0; k < s->count; ++k) {
+    const char *line = s->at[k].base + i * s->at[k].stride;
+    if (write) {
+      __builtin_prefetch(line, 1);
+      if (s->at[k].stride > 8) __builtin_prefetch(line + s->at[k].stride - 1, 1);
+    } else {
+      __builtin_prefetch(line, 0);
+      if (s->at[k].stride > 8) __builtin_prefetch(line + s->at[k].stride - 1, 0);
+    }
+  }
+}
 
 #define SPHI_PLACE(member, wanted, count) \
   do {                                    \

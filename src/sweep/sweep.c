@@ -91,6 +91,7 @@ sph_status sphi_sweep_run(sph_neighbors *list, const sphi_sweep *sweep) {
   run.spec.width = sweep->f_count;
   job.rows = choose_rows(ctx, &run.spec, sweep->a->dim);
   run.layout = sphi_record_of(run.spec, sweep->a->dim);
+  sphi_streams_of(&run);
   set_periods(&run);
   set_constants(&run);
   size_t bytes = sphi_mul((size_t)sweep->a->n, (size_t)run.layout.quads * 4 * sizeof(double));

@@ -29,6 +29,9 @@ enum {
   SPHI_ARTSTRESS = 1 << 12 /* artificial stress f^n (R_i + R_j) */
 };
 
+/* Terms that add to dvdt. */
+enum { SPHI_ALL_FORCES = SPHI_STRESS | SPHI_PRESSURE | SPHI_MONAGHAN | SPHI_BULK | SPHI_ARTSTRESS };
+
 enum { SPHI_FIELD_WIDTH = 4 }; /* components of a field that one sweep takes */
 
 /* Arrays that are one value everywhere are not packed. */
