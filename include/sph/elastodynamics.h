@@ -79,7 +79,7 @@ typedef struct sph_elastodynamics_options {
   double artificial_stress;  /* epsilon >= 0; 0: none; default 0.3. It softens tension: see term */
   int32_t artificial_power;  /* n; default 4 */
   double artificial_spacing; /* f = 1 at this distance, in dp, > 0; default 1. At 0.75 it acts on
-                              * pairs that come too close, and softens tension by a quarter only */
+                              * pairs that come too close, and softens tension by a third of that */
   double xsph;               /* epsilon >= 0; default 0 */
   double body_force[3];      /* per mass; default 0 */
   double wave_speed; /* > 0: of every phase, e.g. sqrt(E/rho) as in the sources; 0 (default): the
