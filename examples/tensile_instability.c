@@ -28,7 +28,7 @@
 static const double young = 45e9, poisson = 0.35, density = 1738.0, dp = 0.01, end_time = 1e-3;
 
 enum { BAR = 1, SQUARE, TRIANGULAR }; /* lattices */
-enum { NONE, ARTIFICIAL, POINTS, POINTS_DIFFERENCE, INITIAL };
+enum { NONE, ARTIFICIAL, POINTS, POINTS_DIFFERENCE, INITIAL, LAGRANGIAN };
 
 typedef struct body {
   int lattice;
@@ -129,17 +129,20 @@ static sph_material *make_material(sph_context *ctx, const body *b) {
 
 static sph_rhs *make_rhs(sph_context *ctx, sph_kernel *kernel, sph_material *hooke, const body *b,
                          sph_hold *hold) {
-  static const int32_t kinds[] = {SPH_TERM_STRESS, SPH_TERM_STRESS_RATE, SPH_TERM_MOTION,
-                                  SPH_TERM_ARTIFICIAL_STRESS};
+  const int32_t kinds[] = {b->cure == LAGRANGIAN ? SPH_TERM_FIRST_PIOLA : SPH_TERM_STRESS,
+                           SPH_TERM_STRESS_RATE, SPH_TERM_MOTION, SPH_TERM_ARTIFICIAL_STRESS};
   sph_rhs *rhs;
   sph_rhs_options options;
   sph_rhs_options_init(&options);
-  if (b->cure == INITIAL) options.position_field = SPH_FIELD_X0;
+  if (b->cure == INITIAL || b->cure == LAGRANGIAN) options.position_field = SPH_FIELD_X0;
   need(ctx, sph_rhs_create(ctx, kernel, &options, &rhs));
   for (int k = 0; k < (b->cure == ARTIFICIAL ? 4 : 3); ++k) {
     sph_term term;
     sph_term_init(&term);
     term.kind = kinds[k];
+    if (kinds[k] == SPH_TERM_FIRST_PIOLA) term.form = SPH_PIOLA_SUMMED;
+    if (b->cure == LAGRANGIAN && kinds[k] == SPH_TERM_STRESS_RATE)
+      term.form = SPH_STRESS_RATE_LAGRANGIAN;
     if (k == 3) {
       term.epsilon = 0.3;
       term.spacing_ratio = 1.0 / b->h;
@@ -250,8 +253,12 @@ static outcome run(const body *b) {
 
 /* ---- table ------------------------------------------------------------------------------- */
 
-static const char *const cures[] = {"none", "artificial_stress", "stress_points",
-                                    "stress_points_difference", "initial_configuration"};
+static const char *const cures[] = {"none",
+                                    "artificial_stress",
+                                    "stress_points",
+                                    "stress_points_difference",
+                                    "initial_configuration",
+                                    "total_lagrangian"};
 static const char *const lattices[] = {"?", "bar", "square", "triangular"};
 
 static int table(void) {
@@ -259,7 +266,7 @@ static int table(void) {
       {SQUARE, 50, -3e9, 1.2, NONE},          {SQUARE, 50, 3e9, 1.2, NONE},
       {SQUARE, 50, 3e9, 1.2, ARTIFICIAL},     {TRIANGULAR, 50, 3e9, 1.2, NONE},
       {TRIANGULAR, 50, 3e9, 1.2, ARTIFICIAL}, {SQUARE, 25, 3e9, 1.2, POINTS},
-      {SQUARE, 50, 3e9, 1.2, INITIAL}};
+      {SQUARE, 50, 3e9, 1.2, INITIAL},        {SQUARE, 50, 3e9, 1.2, LAGRANGIAN}};
   printf("%-12s %10s  %-22s %12s %16s %14s\n", "lattice", "stress/GPa", "cure", "speed m/s",
          "1e-3 m/s at s", "closest/dp");
   for (size_t k = 0; k < sizeof bodies / sizeof *bodies; ++k) {

@@ -139,13 +139,22 @@ static int validate(int full) {
     body b;
     int expected;
   } all[] = {
-      {{BAR, 64, -3e9, 1.2, NONE}, STABLE},       {{BAR, 64, 3e9, 1.2, NONE}, CLUMPS},
-      {{BAR, 64, 1e9, 1.5, NONE}, STABLE},        {{BAR, 64, 3e9, 1.2, ARTIFICIAL}, STABLE},
-      {{BAR, 64, 3e9, 1.2, POINTS}, STABLE},      {{BAR, 64, 3e9, 1.2, POINTS_DIFFERENCE}, STABLE},
-      {{BAR, 64, 3e9, 1.2, INITIAL}, STABLE},     {{SQUARE, 50, -3e9, 1.2, NONE}, STABLE},
-      {{SQUARE, 50, 3e9, 1.2, NONE}, CLUMPS},     {{SQUARE, 50, 3e9, 1.2, ARTIFICIAL}, FAILED_CURE},
-      {{TRIANGULAR, 50, 3e9, 1.2, NONE}, CLUMPS}, {{TRIANGULAR, 50, 3e9, 1.2, ARTIFICIAL}, STABLE},
-      {{SQUARE, 25, 3e9, 1.2, POINTS}, STABLE},   {{SQUARE, 50, 3e9, 1.2, INITIAL}, STABLE},
+      {{BAR, 64, -3e9, 1.2, NONE}, STABLE},
+      {{BAR, 64, 3e9, 1.2, NONE}, CLUMPS},
+      {{BAR, 64, 1e9, 1.5, NONE}, STABLE},
+      {{BAR, 64, 3e9, 1.2, ARTIFICIAL}, STABLE},
+      {{BAR, 64, 3e9, 1.2, POINTS}, STABLE},
+      {{BAR, 64, 3e9, 1.2, POINTS_DIFFERENCE}, STABLE},
+      {{BAR, 64, 3e9, 1.2, INITIAL}, STABLE},
+      {{BAR, 64, 3e9, 1.2, LAGRANGIAN}, STABLE},
+      {{SQUARE, 50, -3e9, 1.2, NONE}, STABLE},
+      {{SQUARE, 50, 3e9, 1.2, NONE}, CLUMPS},
+      {{SQUARE, 50, 3e9, 1.2, ARTIFICIAL}, FAILED_CURE},
+      {{TRIANGULAR, 50, 3e9, 1.2, NONE}, CLUMPS},
+      {{TRIANGULAR, 50, 3e9, 1.2, ARTIFICIAL}, STABLE},
+      {{SQUARE, 25, 3e9, 1.2, POINTS}, STABLE},
+      {{SQUARE, 50, 3e9, 1.2, INITIAL}, STABLE},
+      {{SQUARE, 50, 3e9, 1.2, LAGRANGIAN}, STABLE},
   };
   int failed = 0;
   for (size_t k = 0; k < sizeof crossings / sizeof *crossings; ++k)
