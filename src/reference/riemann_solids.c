@@ -1,0 +1,292 @@
+/* Waves of laws that are linear in the energy, p = cold(rho) + heat(rho) e: Mie-Grueneisen in its
+ * three forms. The Hugoniot is a closed form of the density; the isentrope is integrated,
+ *
+ *   de/dy = p/rho,   d gain/dy = c,   y = ln rho,
+ *
+ * in z = sqrt(y - y_0), y_0 where c = 0: there c grows as z, so that in z everything is smooth. */
+#include "reference_impl.h"
+
+#include <math.h>
+
+/* cold, heat and their derivatives by rho */
+typedef struct coefficients {
+  double cold, dcold, heat, dheat;
+} coefficients;
+
+/* The reference curve by u = rho/rho0 - 1, and its derivative. */
+static void curve(const sph_riemann_side *m, double u, double *p, double *dp) {
+  const double a = m->density * m->sound_speed * m->sound_speed, s = m->slope - 1.0;
+  if (m->curve != SPH_COLD_CUBIC && u <= 0.0) {
+    *p = a * u;
+    *dp = a;
+  } else if (m->curve == SPH_HUGONIOT) { /* a eta/(1 - S eta)^2 with eta = u/(1 + u) */
+    const double d = 1.0 - s * u;
+    *p = a * u * (1.0 + u) / (d * d);
+    *dp = a * (1.0 + 2.0 * u + s * u) / (d * d * d);
+  } else {
+    const double b = a * (1.0 + 2.0 * s), c = a * (2.0 * s + 3.0 * s * s);
+    *p = u * (a + u * (b + u * c));
+    *dp = a + u * (2.0 * b + 3.0 * u * c);
+  }
+}
+
+static coefficients coefficients_at(const sph_riemann_side *m, double rho) {
+  const double u = rho / m->density - 1.0, g = m->gruneisen;
+  double p, dp;
+  curve(m, u, &p, &dp);
+  if (m->curve == SPH_COLD_CUBIC) return (coefficients){p, dp / m->density, g * m->density, 0.0};
+  return (coefficients){(1.0 - 0.5 * g * u) * p,
+                        ((1.0 - 0.5 * g * u) * dp - 0.5 * g * p) / m->density, g * rho, g};
+}
+
+static double pressure_of(const coefficients *k, double e) { return k->cold + k->heat * e; }
+
+/* c^2 = dp/drho + p/rho^2 dp/de; may be negative in tension */
+static double sound2_of(const coefficients *k, double rho, double e) {
+  return k->dcold + k->dheat * e + pressure_of(k, e) / rho / rho * k->heat;
+}
+
+/* ---- the isentrope ----------------------------------------------------------------------- */
+
+/* Energy and gain; the independent variable is z about y_0, or y itself. */
+typedef struct isentrope {
+  const sph_riemann_side *given;
+  double origin; /* y_0 */
+  int in_y;
+} isentrope;
+
+static void slope_at(const isentrope *s, double z, const double state[2], double rate[2]) {
+  const double rho = exp(s->in_y ? z : s->origin + z * z), scale = s->in_y ? 1.0 : 2.0 * z;
+  const coefficients k = coefficients_at(s->given, rho);
+  rate[0] = scale * pressure_of(&k, state[0]) / rho;
+  rate[1] = scale * sqrt(fmax(sound2_of(&k, rho, state[0]), 0.0));
+}
+
+/* Gragg's modified midpoint rule: its error has even powers of the step alone. */
+static void midpoint(const isentrope *s, double z, double h, int steps, const double from[2],
+                     double to[2]) {
+  double before[2] = {from[0], from[1]}, now[2], rate[2];
+  const double d = h / steps;
+  slope_at(s, z, from, rate);
+  for (int k = 0; k < 2; ++k) now[k] = from[k] + d * rate[k];
+  for (int i = 1; i < steps; ++i) {
+    slope_at(s, z + i * d, now, rate);
+    for (int k = 0; k < 2; ++k) {
+      const double next = before[k] + 2.0 * d * rate[k];
+      before[k] = now[k];
+      now[k] = next;
+    }
+  }
+  slope_at(s, z + h, now, rate);
+  for (int k = 0; k < 2; ++k) to[k] = 0.5 * (before[k] + now[k] + d * rate[k]);
+}
+
+/* One panel, extrapolated: Hairer, Norsett, Wanner, Solving ODEs I, section II.9. */
+enum { COLUMNS = 7 };
+static void panel(const isentrope *s, double z, double h, double state[2]) {
+  double row[COLUMNS][2];
+  for (int j = 0; j < COLUMNS; ++j) {
+    double fresh[2];
+    midpoint(s, z, h, 2 * (j + 1), state, fresh);
+    for (int k = 0; k < 2; ++k) {
+      double better = fresh[k];
+      for (int i = 1; i <= j; ++i) { /* Neville, in place: row[i - 1] is the former row */
+        const double ratio = (double)(j + 1) / (j + 1 - i), old = row[i - 1][k];
+        row[i - 1][k] = better;
+        better += (better - old) / (ratio * ratio - 1.0);
+      }
+      row[j][k] = better;
+    }
+  }
+  for (int k = 0; k < 2; ++k) state[k] = row[COLUMNS - 1][k];
+}
+
+static void panels(const isentrope *s, double from, double to, double state[2]) {
+  const double width = s->in_y ? 0.05 : 0.1;
+  const int n = 1 + (int)(fabs(to - from) / width);
+  const double h = (to - from) / n;
+  for (int i = 0; i < n; ++i) panel(s, from + i * h, h, state);
+}
+
+/* From the undisturbed density to ln rho = y, cut at rho0, where two of the curves have a kink. */
+static sphi_wave expand(const sphi_side *side, double y) {
+  const isentrope s = {&side->given, side->slowest, 0};
+  const double start = log(side->given.rho), kink = log(side->given.density);
+  double z = sqrt(start - side->slowest), state[2] = {side->start.e, 0.0};
+  const double end = sqrt(fmax(y - side->slowest, 0.0));
+  if (start > kink && kink > fmax(y, side->slowest)) {
+    const double middle = sqrt(kink - side->slowest);
+    panels(&s, z, middle, state);
+    z = middle;
+  }
+  panels(&s, z, end, state);
+  sphi_wave w = {.rho = exp(y), .e = state[0], .gain = state[1], .front = side->start.c};
+  const coefficients k = coefficients_at(&side->given, w.rho);
+  w.p = pressure_of(&k, w.e);
+  w.c = y > side->slowest ? sqrt(fmax(sound2_of(&k, w.rho, w.e), 0.0)) : 0.0;
+  return w;
+}
+
+/* ---- where it ends ----------------------------------------------------------------------- */
+
+typedef struct ending {
+  isentrope s;
+  double y, e; /* a state with c^2 > 0 */
+} ending;
+
+static double ending_sound2(const void *user, double y) {
+  const ending *end = user;
+  double state[2] = {end->e, 0.0};
+  panel(&end->s, end->y, y - end->y, state);
+  const coefficients k = coefficients_at(end->s.given, exp(y));
+  return sound2_of(&k, exp(y), state[0]);
+}
+
+/* March down until c^2 changes its sign. What is left of 60 e-folds is no matter at all. */
+static void find_end(sphi_side *side) {
+  ending end = {{&side->given, 0.0, 1}, log(side->given.rho), side->start.e};
+  const double step = 0.05, kink = log(side->given.density);
+  for (int k = 0; k < 1200; ++k) {
+    const int cut = end.y > kink && end.y - step < kink;
+    const double next = cut ? kink : end.y - step;
+    if (ending_sound2(&end, next) <= 0.0) {
+      side->slowest = sphi_root(ending_sound2, &end, next, end.y);
+      break;
+    }
+    double state[2] = {end.e, 0.0};
+    panel(&end.s, end.y, next - end.y, state);
+    end.e = state[0];
+    end.y = side->slowest = next;
+  }
+  side->lowest = expand(side, side->slowest).p;
+}
+
+/* ---- the Hugoniot ------------------------------------------------------------------------ */
+
+/* Zisis (1.7) solved for p: [cold + heat (e_1 + p_1 d/2)]/(1 - heat d/2), d = 1/rho_1 - 1/rho. */
+static double hugoniot(const sphi_side *side, double y) {
+  const double rho = exp(y), rho1 = side->given.rho, d = (rho - rho1) / (rho * rho1);
+  const coefficients k = coefficients_at(&side->given, rho);
+  return (k.cold + k.heat * (side->start.e + 0.5 * side->start.p * d)) / (1.0 - 0.5 * k.heat * d);
+}
+
+/* ln rho that no shock reaches: 1 - heat d/2 = 0, or the pole of the curve. */
+static double densest(const sph_riemann_side *m) {
+  double limit = m->rho * (1.0 + 2.0 / m->gruneisen);
+  if (m->curve == SPH_COLD_CUBIC) {
+    const double least = 1.0 / m->rho - 2.0 / (m->gruneisen * m->density);
+    limit = least > 0.0 ? 1.0 / least : INFINITY;
+  }
+  if (m->curve == SPH_HUGONIOT && m->slope > 1.0)
+    limit = fmin(limit, m->density * m->slope / (m->slope - 1.0));
+  return log(limit);
+}
+
+typedef struct target {
+  const sphi_side *side;
+  double p;
+} target;
+
+static double hugoniot_miss(const void *user, double y) {
+  const target *t = user;
+  return hugoniot(t->side, y) - t->p;
+}
+
+static double isentrope_miss(const void *user, double y) {
+  const target *t = user;
+  return expand(t->side, y).p - t->p;
+}
+
+static double fan_miss(const void *user, double y) {
+  const target *t = user;
+  const sphi_wave w = expand(t->side, y);
+  return w.gain + w.c - t->p;
+}
+
+/* ln rho behind the shock to p: the distance from the undisturbed state is doubled, or what is left
+ * to the limit halved, until p lies below. NaN when the law does not reach it. */
+static double compress(const sphi_side *side, double p) {
+  const target t = {side, p};
+  const double start = log(side->given.rho), limit = densest(&side->given);
+  double lo = start, hi = start;
+  for (int k = -6; k < 60; ++k) {
+    lo = hi;
+    hi = fmin(start + ldexp(1.0, k), isfinite(limit) ? 0.5 * (lo + limit) : INFINITY);
+    const double reached = hugoniot(side, hi);
+    if (!(reached > side->start.p)) return NAN;
+    if (reached >= p) return sphi_root(hugoniot_miss, &t, lo, hi);
+  }
+  return NAN;
+}
+
+static sphi_wave shock(const sphi_side *side, double p) {
+  const double y = compress(side, p), rho1 = side->given.rho;
+  if (isnan(y)) return (sphi_wave){.p = NAN, .gain = NAN};
+  const double d = -expm1(-(y - log(rho1))) / rho1, up = p - side->start.p;
+  sphi_wave w = {.p = p, .rho = exp(y), .gain = sqrt(up * d), .front = sqrt(up / d) / rho1};
+  const coefficients k = coefficients_at(&side->given, w.rho);
+  w.e = side->start.e + 0.5 * (p + side->start.p) * d;
+  w.c = sqrt(fmax(sound2_of(&k, w.rho, w.e), 0.0));
+  return w;
+}
+
+/* So weak that the density would not show it: the isentrope to first order. */
+static sphi_wave weak(const sphi_side *side, double p) {
+  const double rho = side->given.rho, c = side->start.c, up = p - side->start.p;
+  sphi_wave w = side->start;
+  w.p = p;
+  w.rho += up / (c * c);
+  w.e += side->start.p / rho * (up / rho / (c * c));
+  w.gain = up / (rho * c);
+  return w;
+}
+
+/* ---- the law ----------------------------------------------------------------------------- */
+
+static sphi_wave solid_wave(const sphi_side *side, double p) {
+  const double rho = side->given.rho, c = side->start.c;
+  if (fabs(p - side->start.p) <= 1e-9 * rho * c * c) return weak(side, p);
+  if (p > side->start.p) return shock(side, p);
+  if (p <= side->lowest) return expand(side, side->slowest);
+  const target t = {side, p};
+  sphi_wave w = expand(side, sphi_root(isentrope_miss, &t, side->slowest, log(rho)));
+  w.p = p;
+  return w;
+}
+
+static sphi_wave solid_fan(const sphi_side *side, double speed) {
+  const target t = {side, speed};
+  return expand(side, sphi_root(fan_miss, &t, side->slowest, log(side->given.rho)));
+}
+
+static sph_status check_constants(sph_context *ctx, const sph_riemann_side *m, const char *name) {
+  sph_status s = sphi_riemann_above(ctx, name, "density", m->density, 0.0, 0);
+  if (s == SPH_OK) s = sphi_riemann_above(ctx, name, "sound_speed", m->sound_speed, 0.0, 0);
+  if (s == SPH_OK) s = sphi_riemann_above(ctx, name, "slope", m->slope, 0.0, 1);
+  if (s == SPH_OK) s = sphi_riemann_above(ctx, name, "gruneisen", m->gruneisen, 0.0, 0);
+  if (s != SPH_OK) return s;
+  if (m->curve < SPH_HUGONIOT_CUBIC || m->curve > SPH_COLD_CUBIC)
+    return sphi_fail(ctx, SPH_ERR_ARG, "%s: curve = %d is unknown", name, (int)m->curve);
+  return SPH_OK;
+}
+
+static sph_status solid_prepare(sph_context *ctx, sphi_side *side, const char *name) {
+  const sph_riemann_side *m = &side->given;
+  sph_status s = check_constants(ctx, m, name);
+  if (s != SPH_OK) return s;
+  if (m->curve == SPH_HUGONIOT && 1.0 - m->density / m->rho >= 1.0 / m->slope)
+    return sphi_fail(ctx, SPH_ERR_NUMERIC, "%s: rho = %g is denser than any shock makes it", name,
+                     m->rho);
+  const coefficients k = coefficients_at(m, m->rho);
+  side->start.p = m->p;
+  side->start.e = (m->p - k.cold) / k.heat;
+  const double c2 = sound2_of(&k, m->rho, side->start.e);
+  if (!(c2 > 0.0) || !isfinite(c2))
+    return sphi_fail(ctx, SPH_ERR_NUMERIC, "%s: at rho = %g, p = %g the sound speed has c^2 = %g",
+                     name, m->rho, m->p, c2);
+  side->start.c = sqrt(c2);
+  find_end(side);
+  return SPH_OK;
+}
+
+const sphi_riemann_law sphi_riemann_mie_gruneisen = {solid_prepare, solid_wave, solid_fan};
