@@ -93,8 +93,10 @@ SPH_API void sph_riemann_solution_init_sized(sph_riemann_solution *solution, siz
  * A void opens when even the lowest pressure that both materials can take does not keep them
  * together: -P_ref for a gas, background - B for a barotropic law of gamma > 1 (a linear one thins
  * out without end), and for Mie-Grueneisen the tension where the speed of sound becomes 0 along the
- * isentrope. The larger of the two is the pressure of the void and p of the solution; a material
- * that could bear less ends there with a free surface. With P_ref = 0 this is Toro 4.6.
+ * isentrope or, as with SPH_HUGONIOT and _CUBIC it may never, where the density has fallen to a
+ * thousandth (of rho0 or rho, the smaller). The larger of the two is the pressure of the void and p
+ * of the solution; a material that could bear less ends there with a free surface. With P_ref = 0
+ * this is Toro 4.6.
  *
  * Every law is taken as convex: compressions are shocks, expansions are fans. Closed forms for GAS
  * and BAROTROPIC, about 20 evaluations; for MIE_GRUNEISEN isentropes are integrated by

@@ -82,19 +82,29 @@ static double closing(const void *user, double p) {
   return side[0].law->wave(&side[0], p).gain + side[1].law->wave(&side[1], p).gain + apart;
 }
 
-/* ... so that the wanted pressure is where `closing` is 0. It lies between `low`, where the sum is
- * not positive, and low + d for a d that is found by doubling or halving. */
-static sph_status find_pressure(sph_context *ctx, const sphi_side side[2], double low, double *p) {
+/* ... so that the wanted pressure is where `closing` is 0. A d for which it is positive at low + d is
+ * found by doubling, or between what is too low and what the laws do not reach. */
+static double reach(const sphi_side side[2], double low) {
   const double dv = side[1].given.v - side[0].given.v;
-  double d = fmax(side[0].start.p, side[1].start.p) - low;
+  double d = fmax(side[0].start.p, side[1].start.p) - low, good = 0.0, bad = INFINITY;
   if (!(d > 0.0)) d = fmax(fmax(side[0].given.rho, side[1].given.rho) * dv * dv, DBL_MIN);
-  double f = closing(side, low + d);
-  while (f < 0.0 && isfinite(low + d)) f = closing(side, low + (d *= 2.0));
-  if (!isfinite(f) || !isfinite(low + d))
+  while (d > good && d < bad) {
+    const double f = closing(side, low + d);
+    if (f >= 0.0 && isfinite(f)) return d;
+    *(isfinite(f) ? &good : &bad) = d;
+    d = isfinite(bad) ? 0.5 * (good + bad) : 2.0 * d;
+  }
+  return NAN;
+}
+
+/* The pressure lies between `low`, where the sides drift apart, and low + d; d is halved first, for
+ * it may be smaller by orders. */
+static sph_status find_pressure(sph_context *ctx, const sphi_side side[2], double low, double *p) {
+  double d = reach(side, low), half = 0.5 * d;
+  if (isnan(d))
     return sphi_fail(ctx, SPH_ERR_NUMERIC,
-                     "velocities %g and %g: no pressure up to %g that the laws reach stops them",
-                     side[0].given.v, side[1].given.v, low + d);
-  double half = 0.5 * d;
+                     "velocities %g and %g: no pressure that the laws reach stops the two sides",
+                     side[0].given.v, side[1].given.v);
   while (low + half > low && closing(side, low + half) > 0.0) {
     d = half;
     half *= 0.5;

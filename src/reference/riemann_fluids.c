@@ -16,7 +16,7 @@ static sph_status gas_prepare(sph_context *ctx, sphi_side *side, const char *nam
     s = sphi_riemann_above(ctx, name, "reference_pressure", g->reference_pressure, 0.0, 1);
   if (s == SPH_OK) s = sphi_riemann_above(ctx, name, "p", g->p, -g->reference_pressure, 1);
   if (s != SPH_OK) return s;
-  side->lowest = -g->reference_pressure;
+  side->lowest = 0.0 - g->reference_pressure; /* not -0 */
   side->start.p = g->p;
   side->start.e = gas_energy(g, g->rho, g->p);
   side->start.c = sqrt(g->gamma * (g->p + g->reference_pressure) / g->rho);

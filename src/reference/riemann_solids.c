@@ -3,7 +3,7 @@
  *
  *   de/dy = p/rho,   d gain/dy = c,   y = ln rho,
  *
- * in z = sqrt(y - y_0), y_0 where c = 0: there c grows as z, so that in z everything is smooth. */
+ * in z = sqrt(y - y_0), y_0 the end: where c = 0 there, it grows as z, and in z all is smooth. */
 #include "reference_impl.h"
 
 #include <math.h>
@@ -123,7 +123,7 @@ static sphi_wave expand(const sphi_side *side, double y) {
   sphi_wave w = {.rho = exp(y), .e = state[0], .gain = state[1], .front = side->start.c};
   const coefficients k = coefficients_at(&side->given, w.rho);
   w.p = pressure_of(&k, w.e);
-  w.c = y > side->slowest ? sqrt(fmax(sound2_of(&k, w.rho, w.e), 0.0)) : 0.0;
+  w.c = sqrt(fmax(sound2_of(&k, w.rho, w.e), 0.0));
   return w;
 }
 
@@ -142,22 +142,23 @@ static double ending_sound2(const void *user, double y) {
   return sound2_of(&k, exp(y), state[0]);
 }
 
-/* March down until c^2 changes its sign. What is left of 60 e-folds is no matter at all. */
+/* March down until c^2 changes its sign, or to a thousandth of the density. */
 static void find_end(sphi_side *side) {
   ending end = {{&side->given, 0.0, 1}, log(side->given.rho), side->start.e};
-  const double step = 0.05, kink = log(side->given.density);
-  for (int k = 0; k < 1200; ++k) {
-    const int cut = end.y > kink && end.y - step < kink;
-    const double next = cut ? kink : end.y - step;
+  const double kink = log(side->given.density);
+  const double floor = log(1e-3 * fmin(side->given.rho, side->given.density));
+  while (end.y > floor) {
+    double next = fmax(end.y - 0.05, floor), state[2] = {end.e, 0.0};
+    if (end.y > kink && next < kink) next = kink;
     if (ending_sound2(&end, next) <= 0.0) {
-      side->slowest = sphi_root(ending_sound2, &end, next, end.y);
+      end.y = sphi_root(ending_sound2, &end, next, end.y);
       break;
     }
-    double state[2] = {end.e, 0.0};
     panel(&end.s, end.y, next - end.y, state);
     end.e = state[0];
-    end.y = side->slowest = next;
+    end.y = next;
   }
+  side->slowest = end.y;
   side->lowest = expand(side, side->slowest).p;
 }
 

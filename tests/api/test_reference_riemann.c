@@ -82,7 +82,9 @@ static void test_liquid_gas(void **state) {
   const sph_riemann_side l = gas_side(1, 0, 1, 4.4, 0.6), r = gas_side(0.05, 0, 0.01, 1.4, 0);
   const sph_riemann_solution s = solve(ctx, &l, &r);
   check_printed(s.p, 0.0308105, 7);
-  check_star(&s, 0.030811, 0.471431, 0.809341, 0.107291, 6);
+  check_printed(s.v[0], 0.471431, 6);
+  check_printed(s.rho[0], 0.809341, 6);
+  check_printed(s.rho[1], 0.107291, 6);
   check_printed(s.e[0], 0.970583, 6);
   check_printed(s.e[1], 0.717919, 6);
   check_printed(0.7 + 0.23 * s.head[0], 0.08974, 5);
@@ -105,7 +107,9 @@ static void test_bubble(void **state) {
   check_close(343 * s.head[1], 269.9, 0.05);
 }
 
-/* Toro, tables 4.1 to 4.3; the figures to their printed digits, the weak form to rounding. */
+/* Toro, tables 4.1 to 4.3; the figures to their printed digits, the weak form to rounding. Table 4.3
+ * gives u* = 8.68975 in the last test and 1691.64 for p*; its rounded initial states have 8.689774
+ * and 1691.647, by bisection of (4.5) in other code, too. */
 static void test_toro(void **state) {
   (void)state;
   static const struct {
@@ -118,10 +122,10 @@ static void test_toro(void **state) {
       {{1, 0, 0.01}, {1, 0, 100}, 46.0950, -6.19633, {5.99242, 0.57511}, {4, 5, 5, 5}},
       {{5.99924, 19.5975, 460.894},
        {5.99242, -6.19633, 46.0950},
-       1691.64,
-       8.68975,
+       1691.647,
+       8.689774,
        {14.2823, 31.0426},
-       {1, 5, 4, 4}}};
+       {3, 6, 4, 4}}};
   for (int k = 0; k < 5; k++) {
     const sph_riemann_side l = gas_side(c[k].l[0], c[k].l[1], c[k].l[2], 1.4, 0);
     const sph_riemann_side r = gas_side(c[k].r[0], c[k].r[1], c[k].r[2], 1.4, 0);
@@ -220,13 +224,13 @@ static sph_riemann_side metal(int32_t which, double v, int32_t curve) {
 }
 
 /* Zisis 6.2: planar impact pressure in GPa of Al 2024 on Al, Cu and Pb, and of Al 1000 on the plates
- * of 6.3 */
+ * of 6.3. With the exact curve Al on Al has rho0 (c0 + S U/2) U/2 = 81.447, which is 81.4. */
 static void test_impacts(void **state) {
   (void)state;
   static const struct {
     int32_t from, to;
     double speed, p, v, linear;
-  } c[] = {{SPH_ALUMINIUM_2024, SPH_ALUMINIUM_2024, 6180, 80.6, 3090, 81.5},
+  } c[] = {{SPH_ALUMINIUM_2024, SPH_ALUMINIUM_2024, 6180, 80.6, 3090, 81.4},
            {SPH_ALUMINIUM_2024, SPH_COPPER, 5750, 111.5, 1883, 113.1},
            {SPH_ALUMINIUM_2024, SPH_LEAD, 6850, 139.6, 2350, 143.6},
            {SPH_ALUMINIUM_1000, SPH_ALUMINIUM_2024, 4280, 48.7, 0, 0},
@@ -406,8 +410,9 @@ static void test_vacuum(void **state) {
   check_conservation(ctx, &l, &r, &s, 60, 1e-10);
   ray in = sample(ctx, &l, &r, &s, 0.25);
   assert_true(in.rho == 0 && in.e == 0 && in.p == 0 && in.v == 0.25);
-  in = sample(ctx, &l, &r, &s, -6 + 2 * c);
-  check_rel(in.rho, pow((in.v + 6 - 2 * c + c * 0 + (-6 + 2 * c - in.v) + 0.5 * c) / c, 5), 1);
+  in = sample(ctx, &l, &r, &s, -6 + 2 * c); /* Toro (4.56): c there is c_L (1 - (2 + 1)/6) */
+  check_rel(in.rho, pow(0.5, 5), 1e-13);
+  check_rel(in.v, -6 + 2.5 * c, 1e-14);
   /* a hair slower they stay together */
   l.v = -5 * c * (1 - 1e-9);
   r.v = -l.v;
@@ -455,18 +460,21 @@ static void test_surfaces(void **state) {
   assert_true(s.p == 0 && s.rho[0] == 0);
 }
 
-/* A solid breaks where c = 0 along its isentrope. */
+/* A solid breaks where c = 0 along its isentrope, or is a thousandth as dense. */
 static void test_spall(void **state) {
   (void)state;
   for (int32_t curve = SPH_HUGONIOT_CUBIC; curve <= SPH_COLD_CUBIC; curve++) {
-    const sph_riemann_side l = solid_side(1, -4, 0, 1, 1, 1.338, 2, curve), r = mirrored(l);
+    const sph_riemann_side l = solid_side(1, -10, 0, 1, 1, 1.338, 2, curve), r = mirrored(l);
     const sph_riemann_solution s = solve(ctx, &l, &r);
-    assert_true(s.gap == 1 && s.p < 0 && s.rho[0] > 0 && s.c[0] == 0);
+    assert_true(s.gap == 1 && s.p < 0 && s.v[0] < 0 && s.rho[0] == s.rho[1]);
     sph_material *m = material_of(ctx, &l);
     check_close(pressure(m, s.rho[0], s.e[0]), s.p, 1e-12);
-    check_close(sound(m, s.rho[0], s.e[0]), 0.0, 1e-6);
+    if (curve == SPH_COLD_CUBIC)
+      check_close(sound(m, s.rho[0], s.e[0]), 0.0, 1e-6);
+    else
+      check_rel(s.rho[0], 1e-3, 1e-12);
     sph_material_destroy(m);
-    check_conservation(ctx, &l, &r, &s, 30, 1e-12);
+    check_conservation(ctx, &l, &r, &s, 100, 1e-12);
   }
 }
 
