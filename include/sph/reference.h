@@ -94,7 +94,7 @@ SPH_API void sph_riemann_solution_init_sized(sph_riemann_solution *solution, siz
  * together: -P_ref for a gas, background - B for a barotropic law of gamma > 1 (a linear one thins
  * out without end), and for Mie-Grueneisen the tension where the speed of sound becomes 0 along the
  * isentrope or, as with SPH_HUGONIOT and _CUBIC it may never, where the density has fallen to a
- * thousandth (of rho0 or rho, the smaller). The larger of the two is the pressure of the void and p
+ * tenth (of rho0 or rho, the smaller). The larger of the two is the pressure of the void and p
  * of the solution; a material that could bear less ends there with a free surface. With P_ref = 0
  * this is Toro 4.6.
  *
@@ -105,9 +105,10 @@ SPH_API void sph_riemann_solution_init_sized(sph_riemann_solution *solution, siz
  *
  * SPH_ERR_ARG: ctx, a side or solution NULL, an unknown law or curve, a constant or a state out of
  * range or not finite (a density that is not positive; p < -P_ref), two voids.
- * SPH_ERR_NUMERIC: a state of Mie-Grueneisen where c^2 <= 0 or that lies beyond the curve, a
- * compression that the law cannot reach (rho >= rho_1 (1 + 2/Gamma); with SPH_HUGONIOT also
- * 1 - rho0/rho >= 1/S), a pressure that overflows. SPH_ERR_VERSION. Since 0.1. */
+ * SPH_ERR_NUMERIC: a state of Mie-Grueneisen where c^2 <= 0 or that lies beyond the curve; a
+ * compression that the law cannot reach: rho >= rho_1 (1 + 2/Gamma) unless from rest at rho0, where
+ * the Hugoniot is the curve itself, for COLD_CUBIC 1/rho <= 1/rho_1 - 2/(Gamma rho0), with
+ * SPH_HUGONIOT also 1 - rho0/rho >= 1/S; a pressure that overflows. SPH_ERR_VERSION. Since 0.1. */
 SPH_API sph_status sph_riemann_solve(sph_context *ctx, const sph_riemann_side *left,
                                      const sph_riemann_side *right, sph_riemann_solution *solution);
 

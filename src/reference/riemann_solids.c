@@ -48,79 +48,94 @@ static double sound2_of(const coefficients *k, double rho, double e) {
 
 /* ---- the isentrope ----------------------------------------------------------------------- */
 
-/* Energy and gain; the independent variable is z about y_0, or y itself. */
 typedef struct isentrope {
   const sph_riemann_side *given;
-  double origin; /* y_0 */
+  double origin; /* y_0; in_y: the independent variable is y itself */
   int in_y;
 } isentrope;
 
-static void slope_at(const isentrope *s, double z, const double state[2], double rate[2]) {
-  const double rho = exp(s->in_y ? z : s->origin + z * z), scale = s->in_y ? 1.0 : 2.0 * z;
+static double density_at(const isentrope *s, double z) {
+  return exp(s->in_y ? z : s->origin + z * z);
+}
+
+static double energy_slope(const isentrope *s, double z, double e) {
+  const double rho = density_at(s, z);
   const coefficients k = coefficients_at(s->given, rho);
-  rate[0] = scale * pressure_of(&k, state[0]) / rho;
-  rate[1] = scale * sqrt(fmax(sound2_of(&k, rho, state[0]), 0.0));
+  return (s->in_y ? 1.0 : 2.0 * z) * pressure_of(&k, e) / rho;
 }
 
 /* Gragg's modified midpoint rule: its error has even powers of the step alone. */
-static void midpoint(const isentrope *s, double z, double h, int steps, const double from[2],
-                     double to[2]) {
-  double before[2] = {from[0], from[1]}, now[2], rate[2];
+static double midpoint(const isentrope *s, double z, double h, int steps, double e) {
   const double d = h / steps;
-  slope_at(s, z, from, rate);
-  for (int k = 0; k < 2; ++k) now[k] = from[k] + d * rate[k];
+  double before = e, now = e + d * energy_slope(s, z, e);
   for (int i = 1; i < steps; ++i) {
-    slope_at(s, z + i * d, now, rate);
-    for (int k = 0; k < 2; ++k) {
-      const double next = before[k] + 2.0 * d * rate[k];
-      before[k] = now[k];
-      now[k] = next;
-    }
+    const double next = before + 2.0 * d * energy_slope(s, z + i * d, now);
+    before = now;
+    now = next;
   }
-  slope_at(s, z + h, now, rate);
-  for (int k = 0; k < 2; ++k) to[k] = 0.5 * (before[k] + now[k] + d * rate[k]);
+  return 0.5 * (before + now + d * energy_slope(s, z + h, now));
 }
 
-/* One panel, extrapolated: Hairer, Norsett, Wanner, Solving ODEs I, section II.9. */
-enum { COLUMNS = 7 };
-static void panel(const isentrope *s, double z, double h, double state[2]) {
-  double row[COLUMNS][2];
+/* The energy at z + h, extrapolated: Hairer, Norsett, Wanner, Solving ODEs I, section II.9. */
+enum { COLUMNS = 6 };
+static double advance(const isentrope *s, double z, double h, double e) {
+  double row[COLUMNS];
   for (int j = 0; j < COLUMNS; ++j) {
-    double fresh[2];
-    midpoint(s, z, h, 2 * (j + 1), state, fresh);
-    for (int k = 0; k < 2; ++k) {
-      double better = fresh[k];
-      for (int i = 1; i <= j; ++i) { /* Neville, in place: row[i - 1] is the former row */
-        const double ratio = (double)(j + 1) / (j + 1 - i), old = row[i - 1][k];
-        row[i - 1][k] = better;
-        better += (better - old) / (ratio * ratio - 1.0);
-      }
-      row[j][k] = better;
+    double better = midpoint(s, z, h, 2 * (j + 1), e);
+    for (int i = 1; i <= j; ++i) { /* Neville, in place: row[i - 1] is of the former row */
+      const double ratio = (double)(j + 1) / (j + 1 - i), old = row[i - 1];
+      row[i - 1] = better;
+      better += (better - old) / (ratio * ratio - 1.0);
     }
+    row[j] = better;
   }
-  for (int k = 0; k < 2; ++k) state[k] = row[COLUMNS - 1][k];
+  return row[COLUMNS - 1];
 }
 
-static void panels(const isentrope *s, double from, double to, double state[2]) {
-  const double width = s->in_y ? 0.05 : 0.1;
-  const int n = 1 + (int)(fabs(to - from) / width);
+/* d gain/dz, from an energy that is right: c^2 may be the small difference of large terms. */
+static double gain_slope(const isentrope *s, double z, double e) {
+  const double rho = density_at(s, z);
+  const coefficients k = coefficients_at(s->given, rho);
+  return 2.0 * z * sqrt(fmax(sound2_of(&k, rho, e), 0.0));
+}
+
+/* Gauss-Legendre with 8 points on each panel, the energy carried from one to the next. */
+static void panels(const isentrope *s, double from, double to, double *e, double *gain) {
+  static const double at[] = {0.01985507175123188, 0.10166676129318663, 0.2372337950418355,
+                              0.4082826787521751,  0.5917173212478249,  0.7627662049581645,
+                              0.8983332387068134,  0.9801449282487682};
+  static const double weight[] = {0.05061426814518813, 0.11119051722668724, 0.15685332293894363,
+                                  0.18134189168918100, 0.18134189168918100, 0.15685332293894363,
+                                  0.11119051722668724, 0.05061426814518813};
+  const int n = 1 + (int)(fabs(to - from) / 0.15);
   const double h = (to - from) / n;
-  for (int i = 0; i < n; ++i) panel(s, from + i * h, h, state);
+  double z = from;
+  for (int i = 0; i < n; ++i) {
+    for (int g = 0; g < 8; ++g) {
+      const double next = from + h * (i + at[g]);
+      *e = advance(s, z, next - z, *e);
+      *gain += h * weight[g] * gain_slope(s, next, *e);
+      z = next;
+    }
+    const double end = from + h * (i + 1);
+    *e = advance(s, z, end - z, *e);
+    z = end;
+  }
 }
 
 /* From the undisturbed density to ln rho = y, cut at rho0, where two of the curves have a kink. */
 static sphi_wave expand(const sphi_side *side, double y) {
   const isentrope s = {&side->given, side->slowest, 0};
   const double start = log(side->given.rho), kink = log(side->given.density);
-  double z = sqrt(start - side->slowest), state[2] = {side->start.e, 0.0};
+  double z = sqrt(start - side->slowest), e = side->start.e, gain = 0.0;
   const double end = sqrt(fmax(y - side->slowest, 0.0));
   if (start > kink && kink > fmax(y, side->slowest)) {
     const double middle = sqrt(kink - side->slowest);
-    panels(&s, z, middle, state);
+    panels(&s, z, middle, &e, &gain);
     z = middle;
   }
-  panels(&s, z, end, state);
-  sphi_wave w = {.rho = exp(y), .e = state[0], .gain = state[1], .front = side->start.c};
+  panels(&s, z, end, &e, &gain);
+  sphi_wave w = {.rho = exp(y), .e = e, .gain = gain, .front = side->start.c};
   const coefficients k = coefficients_at(&side->given, w.rho);
   w.p = pressure_of(&k, w.e);
   w.c = sqrt(fmax(sound2_of(&k, w.rho, w.e), 0.0));
@@ -136,26 +151,23 @@ typedef struct ending {
 
 static double ending_sound2(const void *user, double y) {
   const ending *end = user;
-  double state[2] = {end->e, 0.0};
-  panel(&end->s, end->y, y - end->y, state);
   const coefficients k = coefficients_at(end->s.given, exp(y));
-  return sound2_of(&k, exp(y), state[0]);
+  return sound2_of(&k, exp(y), advance(&end->s, end->y, y - end->y, end->e));
 }
 
-/* March down until c^2 changes its sign, or to a thousandth of the density. */
+/* March down until c^2 changes its sign, or to a tenth of the density. */
 static void find_end(sphi_side *side) {
   ending end = {{&side->given, 0.0, 1}, log(side->given.rho), side->start.e};
   const double kink = log(side->given.density);
-  const double floor = log(1e-3 * fmin(side->given.rho, side->given.density));
+  const double floor = log(0.1 * fmin(side->given.rho, side->given.density));
   while (end.y > floor) {
-    double next = fmax(end.y - 0.05, floor), state[2] = {end.e, 0.0};
+    double next = fmax(end.y - 0.05, floor);
     if (end.y > kink && next < kink) next = kink;
     if (ending_sound2(&end, next) <= 0.0) {
       end.y = sphi_root(ending_sound2, &end, next, end.y);
       break;
     }
-    panel(&end.s, end.y, next - end.y, state);
-    end.e = state[0];
+    end.e = advance(&end.s, end.y, next - end.y, end.e);
     end.y = next;
   }
   side->slowest = end.y;
@@ -164,16 +176,26 @@ static void find_end(sphi_side *side) {
 
 /* ---- the Hugoniot ------------------------------------------------------------------------ */
 
+/* From rest at rho0 the Hugoniot is the reference curve itself. */
+static int from_rest(const sphi_side *side) {
+  const sph_riemann_side *m = &side->given;
+  return m->curve != SPH_COLD_CUBIC && m->rho == m->density && m->p == 0.0;
+}
+
 /* Zisis (1.7) solved for p: [cold + heat (e_1 + p_1 d/2)]/(1 - heat d/2), d = 1/rho_1 - 1/rho. */
 static double hugoniot(const sphi_side *side, double y) {
   const double rho = exp(y), rho1 = side->given.rho, d = (rho - rho1) / (rho * rho1);
+  double p, dp;
+  curve(&side->given, rho / side->given.density - 1.0, &p, &dp);
+  if (from_rest(side)) return p;
   const coefficients k = coefficients_at(&side->given, rho);
   return (k.cold + k.heat * (side->start.e + 0.5 * side->start.p * d)) / (1.0 - 0.5 * k.heat * d);
 }
 
 /* ln rho that no shock reaches: 1 - heat d/2 = 0, or the pole of the curve. */
-static double densest(const sph_riemann_side *m) {
-  double limit = m->rho * (1.0 + 2.0 / m->gruneisen);
+static double densest(const sphi_side *side) {
+  const sph_riemann_side *m = &side->given;
+  double limit = from_rest(side) ? INFINITY : m->rho * (1.0 + 2.0 / m->gruneisen);
   if (m->curve == SPH_COLD_CUBIC) {
     const double least = 1.0 / m->rho - 2.0 / (m->gruneisen * m->density);
     limit = least > 0.0 ? 1.0 / least : INFINITY;
@@ -208,7 +230,7 @@ static double fan_miss(const void *user, double y) {
  * to the limit halved, until p lies below. NaN when the law does not reach it. */
 static double compress(const sphi_side *side, double p) {
   const target t = {side, p};
-  const double start = log(side->given.rho), limit = densest(&side->given);
+  const double start = log(side->given.rho), limit = densest(side);
   double lo = start, hi = start;
   for (int k = -6; k < 60; ++k) {
     lo = hi;
