@@ -82,8 +82,8 @@ static double closing(const void *user, double p) {
   return side[0].law->wave(&side[0], p).gain + side[1].law->wave(&side[1], p).gain + apart;
 }
 
-/* ... so that the wanted pressure is where `closing` is 0. A d for which it is positive at low + d is
- * found by doubling, or between what is too low and what the laws do not reach. */
+/* ... so that the wanted pressure is where `closing` is 0. A d for which it is positive at low + d
+ * is found by doubling, or between what is too low and what the laws do not reach. */
 static double reach(const sphi_side side[2], double low) {
   const double dv = side[1].given.v - side[0].given.v;
   double d = fmax(side[0].start.p, side[1].start.p) - low, good = 0.0, bad = INFINITY;

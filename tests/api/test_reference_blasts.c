@@ -1,4 +1,5 @@
-/* Noh, Sedov, Gresho: jump relations, the equations of motion, conserved totals, published figures. */
+/* Noh, Sedov, Gresho: jump relations, the equations of motion, conserved totals, published figures.
+ */
 #include "../check.h"
 
 #include <sph/context.h>
@@ -91,8 +92,8 @@ static double shock_radius(const sph_sedov_options *o, double t) {
 }
 
 /* J. Kamm, F. Timmes, LA-UR-07-2849, gamma = 1.4, t = 1: energies with which the shock is at 0.75
- * and 1. Ours are right to rounding by test_sedov_totals; the cylindrical one is 3.3e-5 short of that
- * (and the planar one, 0.0673185 a side for 0.5, 3.6e-4). */
+ * and 1. Ours are right to rounding by test_sedov_totals; the cylindrical one is 3.3e-5 short of
+ * that (and the planar one, 0.0673185 a side for 0.5, 3.6e-4). */
 static void test_sedov_figures(void **state) {
   (void)state;
   static const double energy[] = {0.311357, 0.851072}, r[] = {0.75, 1.0};
@@ -112,7 +113,8 @@ static void test_sedov_shock(void **state) {
   o.density = 1.3;
   for (o.dim = 1; o.dim <= 3; o.dim++)
     for (o.gamma = 1.1; o.gamma < 4.0; o.gamma += 0.25) {
-      const double r = shock_radius(&o, 0.5), speed = (shock_radius(&o, 0.5 + 1e-5) - shock_radius(&o, 0.5 - 1e-5)) / 2e-5;
+      const double r = shock_radius(&o, 0.5),
+                   speed = (shock_radius(&o, 0.5 + 1e-5) - shock_radius(&o, 0.5 - 1e-5)) / 2e-5;
       const gas_at in = sedov(&o, 0.5, r * (1 - 1e-14)), out = sedov(&o, 0.5, r);
       assert_true(out.rho == 1.3 && out.v == 0 && out.p == 0 && out.e == 0);
       check_rel(in.rho * (speed - in.v), 1.3 * speed, 1e-8);
@@ -133,20 +135,28 @@ static void test_sedov_equations(void **state) {
         const double t = 0.8, r = shock_radius(&o, t) * k / 10, d = 1e-4 * r, dt = 1e-4 * t;
         const gas_at a = sedov(&o, t, r), up = sedov(&o, t, r + d), down = sedov(&o, t, r - d),
                      later = sedov(&o, t + dt, r), sooner = sedov(&o, t - dt, r);
-        const double flow = (up.rho * up.v * area(o.dim, r + d) - down.rho * down.v * area(o.dim, r - d)) / (2 * d * area(o.dim, r));
+        const double flow =
+            (up.rho * up.v * area(o.dim, r + d) - down.rho * down.v * area(o.dim, r - d)) /
+            (2 * d * area(o.dim, r));
         check_close((later.rho - sooner.rho) / (2 * dt) + flow, 0, 1e-5 * a.rho / t);
-        check_close((later.v - sooner.v) / (2 * dt) + a.v * (up.v - down.v) / (2 * d) + (up.p - down.p) / (2 * d) / a.rho, 0,
-                    1e-5 * r / (t * t) * (1 + a.p / (a.rho * a.v * a.v)));
+        check_close((later.v - sooner.v) / (2 * dt) + a.v * (up.v - down.v) / (2 * d) +
+                        (up.p - down.p) / (2 * d) / a.rho,
+                    0, 1e-5 * r / (t * t) * (1 + a.p / (a.rho * a.v * a.v)));
 #define ENTROPY(s) (log((s).p) - o.gamma * log((s).rho))
-        check_close((ENTROPY(later) - ENTROPY(sooner)) / (2 * dt) + a.v * (ENTROPY(up) - ENTROPY(down)) / (2 * d), 0, 1e-4 / t);
+        check_close((ENTROPY(later) - ENTROPY(sooner)) / (2 * dt) +
+                        a.v * (ENTROPY(up) - ENTROPY(down)) / (2 * d),
+                    0, 1e-4 / t);
       }
 }
 
-/* All the mass that was swept, and the energy, by Gauss quadrature of r = R S(S(z)), S = z^2 (3 - 2 z). */
+/* All the mass that was swept, and the energy, by Gauss quadrature of r = R S(S(z)), S = z^2 (3 - 2
+ * z). */
 static void test_sedov_totals(void **state) {
   (void)state;
-  static const double at[] = {-0.9061798459386640, -0.5384693101056831, 0.0, 0.5384693101056831, 0.9061798459386640};
-  static const double weight[] = {0.2369268850561891, 0.4786286704993665, 0.5688888888888889, 0.4786286704993665, 0.2369268850561891};
+  static const double at[] = {-0.9061798459386640, -0.5384693101056831, 0.0, 0.5384693101056831,
+                              0.9061798459386640};
+  static const double weight[] = {0.2369268850561891, 0.4786286704993665, 0.5688888888888889,
+                                  0.4786286704993665, 0.2369268850561891};
   sph_sedov_options o;
   sph_sedov_options_init(&o);
   o.energy = 2.5;
@@ -159,7 +169,8 @@ static void test_sedov_totals(void **state) {
         for (int g = 0; g < 5; g++) {
           const double z = (k + 0.5 * (1 + at[g])) / 400, y = z * z * (3 - 2 * z);
           const double r = shock * y * y * (3 - 2 * y);
-          const double w = weight[g] / 800 * 36 * z * (1 - z) * y * (1 - y) * shock * area(o.dim, r);
+          const double w =
+              weight[g] / 800 * 36 * z * (1 - z) * y * (1 - y) * shock * area(o.dim, r);
           const gas_at s = sedov(&o, t, r);
           mass += w * s.rho;
           energy += w * (0.5 * s.rho * s.v * s.v + s.p / (o.gamma - 1));
@@ -195,7 +206,8 @@ static void test_gresho(void **state) {
   double v[6], p[6];
   check_ok(sph_gresho_solution(ctx, NULL, 6, r, v, p)); /* the usual one is the default */
   static const double speed[] = {0, 0.5, 1, 0.5, 0, 0};
-  const double want[] = {5, 5.125, 5.5, 9 + 12.5 * 0.09 - 6 + 4 * log(1.5), 3 + 4 * log(2.0), 3 + 4 * log(2.0)};
+  const double want[] = {
+      5, 5.125, 5.5, 9 + 12.5 * 0.09 - 6 + 4 * log(1.5), 3 + 4 * log(2.0), 3 + 4 * log(2.0)};
   for (int k = 0; k < 6; k++) {
     check_close(v[k], speed[k], 1e-15);
     check_rel(p[k], want[k], 1e-15);
@@ -230,14 +242,14 @@ static void test_refused(void **state) {
   change;                                                                       \
   check_status(sph_noh_solution(ctx, &n, t, 2, r, out, out, out, out), status); \
   assert_true(sph_context_last_error(ctx)[0] != 0);
-#define SEDOV(change, t, status)                                                            \
-  sph_sedov_options_init(&s);                                                               \
-  s.dim = 2;                                                                                \
-  change;                                                                                   \
+#define SEDOV(change, t, status) \
+  sph_sedov_options_init(&s);    \
+  s.dim = 2;                     \
+  change;                        \
   check_status(sph_sedov_solution(ctx, &s, t, 2, r, out, out, out, out, out), status);
-#define GRESHO(change)                                                             \
-  sph_gresho_options_init(&g);                                                     \
-  change;                                                                          \
+#define GRESHO(change)         \
+  sph_gresho_options_init(&g); \
+  change;                      \
   check_status(sph_gresho_solution(ctx, &g, 2, r, out, out), SPH_ERR_ARG);
   NOH(n.dim = 0, 1, SPH_ERR_ARG)
   NOH(n.dim = 4, 1, SPH_ERR_ARG)
@@ -274,8 +286,8 @@ static void test_refused(void **state) {
 
 #define WITH(test) cmocka_unit_test_setup_teardown(test, open_context, close_context)
 static const struct CMUnitTest tests[] = {
-    WITH(test_noh_figures),     WITH(test_noh_equations), WITH(test_sedov_figures),
-    WITH(test_sedov_shock),     WITH(test_sedov_equations), WITH(test_sedov_totals),
-    WITH(test_sedov_centre),    WITH(test_gresho),        WITH(test_refused),
+    WITH(test_noh_figures),  WITH(test_noh_equations),   WITH(test_sedov_figures),
+    WITH(test_sedov_shock),  WITH(test_sedov_equations), WITH(test_sedov_totals),
+    WITH(test_sedov_centre), WITH(test_gresho),          WITH(test_refused),
 };
 SPH_TEST_MAIN(tests)

@@ -107,25 +107,24 @@ static void test_bubble(void **state) {
   check_close(343 * s.head[1], 269.9, 0.05);
 }
 
-/* Toro, tables 4.1 to 4.3; the figures to their printed digits, the weak form to rounding. Table 4.3
- * gives u* = 8.68975 in the last test and 1691.64 for p*; its rounded initial states have 8.689774
- * and 1691.647, by bisection of (4.5) in other code, too. */
+/* Toro, tables 4.1 to 4.3; the figures to their printed digits, the weak form to rounding.
+ * Table 4.3 gives u* = 8.68975 in the last test and 1691.64 for p*; its rounded initial states
+ * have 8.689774 and 1691.647, by bisection of (4.5) in other code, too. */
 static void test_toro(void **state) {
   (void)state;
   static const struct {
     double l[3], r[3], p, u, rho[2];
     int digits[4];
-  } c[] = {
-      {{1, 0, 1}, {0.125, 0, 0.1}, 0.30313, 0.92745, {0.42632, 0.26557}, {5, 5, 5, 5}},
-      {{1, -2, 0.4}, {1, 2, 0.4}, 0.00189, 0, {0.02185, 0.02185}, {5, 5, 5, 5}},
-      {{1, 0, 1000}, {1, 0, 0.01}, 460.894, 19.5975, {0.57506, 5.99924}, {3, 4, 5, 5}},
-      {{1, 0, 0.01}, {1, 0, 100}, 46.0950, -6.19633, {5.99242, 0.57511}, {4, 5, 5, 5}},
-      {{5.99924, 19.5975, 460.894},
-       {5.99242, -6.19633, 46.0950},
-       1691.647,
-       8.689774,
-       {14.2823, 31.0426},
-       {3, 6, 4, 4}}};
+  } c[] = {{{1, 0, 1}, {0.125, 0, 0.1}, 0.30313, 0.92745, {0.42632, 0.26557}, {5, 5, 5, 5}},
+           {{1, -2, 0.4}, {1, 2, 0.4}, 0.00189, 0, {0.02185, 0.02185}, {5, 5, 5, 5}},
+           {{1, 0, 1000}, {1, 0, 0.01}, 460.894, 19.5975, {0.57506, 5.99924}, {3, 4, 5, 5}},
+           {{1, 0, 0.01}, {1, 0, 100}, 46.0950, -6.19633, {5.99242, 0.57511}, {4, 5, 5, 5}},
+           {{5.99924, 19.5975, 460.894},
+            {5.99242, -6.19633, 46.0950},
+            1691.647,
+            8.689774,
+            {14.2823, 31.0426},
+            {3, 6, 4, 4}}};
   for (int k = 0; k < 5; k++) {
     const sph_riemann_side l = gas_side(c[k].l[0], c[k].l[1], c[k].l[2], 1.4, 0);
     const sph_riemann_side r = gas_side(c[k].r[0], c[k].r[1], c[k].r[2], 1.4, 0);
@@ -148,7 +147,8 @@ static void test_asymmetric_impact(void **state) {
       {0.5, 0.5, 0.340559, 0.705863, 1.340559, 1.862238, 0.45265, 0.71176, 0.78948},
       {0.25, 0.25, 0.186231, 0.829012, 1.186231, 3.229690, 0.47326, 0.74870, 0.76957}};
   for (int k = 0; k < 3; k++) {
-    const sph_riemann_side l = tait_side(1, 1, 1, 1, 1), r = tait_side(c[k][0], 0, c[k][0], c[k][1], 1);
+    const sph_riemann_side l = tait_side(1, 1, 1, 1, 1),
+                           r = tait_side(c[k][0], 0, c[k][0], c[k][1], 1);
     const sph_riemann_solution s = solve(ctx, &l, &r);
     check_star(&s, c[k][2], c[k][3], c[k][4], c[k][5], 6);
     check_printed(0.5 + 0.3 * s.head[0], c[k][6], 5);
@@ -213,7 +213,7 @@ static void test_isentropic_bar(void **state) {
   check_printed(0.8 + t * s.tail[0], 0.68090, 5);
   check_printed(0.8 + t * s.v[0], 0.90081, 5);
   check_printed(0.8 + t * s.head[1], 1.01013, 5);
-  check_conservation(ctx, &l, &r, &s, 20, 1e-13);
+  check_conservation(ctx, &l, &r, &s, 200, 1e-13);
 }
 
 static sph_riemann_side metal(int32_t which, double v, int32_t curve) {
@@ -223,8 +223,9 @@ static sph_riemann_side metal(int32_t which, double v, int32_t curve) {
   return solid_side(o.density, v, 0, o.density, o.sound_speed, o.slope, o.gruneisen, curve);
 }
 
-/* Zisis 6.2: planar impact pressure in GPa of Al 2024 on Al, Cu and Pb, and of Al 1000 on the plates
- * of 6.3. With the exact curve Al on Al has rho0 (c0 + S U/2) U/2 = 81.447, which is 81.4. */
+/* Zisis 6.2: planar impact pressure in GPa of Al 2024 on Al, Cu and Pb, and of Al 1000 on the
+ * plates of 6.3. With the exact curve Al on Al has rho0 (c0 + S U/2) U/2 = 81.447, which is 81.4.
+ */
 static void test_impacts(void **state) {
   (void)state;
   static const struct {
@@ -259,7 +260,8 @@ static void check_fan(const sph_riemann_side *l, const sph_riemann_side *r, doub
   sph_material *m = material_of(ctx, l);
   assert_int_equal(s.wave[0], SPH_WAVE_FAN);
   for (int k = 1; k < 20; k++) {
-    const double x = s.head[0] + (s.tail[0] - s.head[0]) * k / 20, d = 1e-4 * (s.tail[0] - s.head[0]);
+    const double x = s.head[0] + (s.tail[0] - s.head[0]) * k / 20,
+                 d = 1e-4 * (s.tail[0] - s.head[0]);
     const ray at = sample(ctx, l, r, &s, x), up = sample(ctx, l, r, &s, x + d),
               down = sample(ctx, l, r, &s, x - d);
     const double c = sound(m, at.rho, at.e), drho = up.rho - down.rho;
@@ -298,21 +300,25 @@ static double uniform(double lo, double hi) {
 }
 
 static sph_riemann_side any_side(int law) {
-  if (law == 0) return gas_side(exp(uniform(-3, 3)), uniform(-3, 3), exp(uniform(-5, 5)), uniform(1.05, 3), 0);
+  if (law == 0)
+    return gas_side(exp(uniform(-3, 3)), uniform(-3, 3), exp(uniform(-5, 5)), uniform(1.05, 3), 0);
   if (law == 1) {
     const double reference = exp(uniform(-3, 3));
-    return gas_side(exp(uniform(-3, 3)), uniform(-1, 1), reference * uniform(-0.9, 5), uniform(1.5, 7), reference);
+    return gas_side(exp(uniform(-3, 3)), uniform(-1, 1), reference * uniform(-0.9, 5),
+                    uniform(1.5, 7), reference);
   }
   if (law == 2) {
     const double rho0 = exp(uniform(-2, 2));
-    sph_riemann_side s = tait_side(rho0 * uniform(0.7, 1.5), uniform(-1, 1), rho0, exp(uniform(-1, 1)),
-                                   uniform(0, 1) < 0.5 ? 1.0 : uniform(1.1, 7));
+    sph_riemann_side s =
+        tait_side(rho0 * uniform(0.7, 1.5), uniform(-1, 1), rho0, exp(uniform(-1, 1)),
+                  uniform(0, 1) < 0.5 ? 1.0 : uniform(1.1, 7));
     s.background = uniform(0, 1);
     return s;
   }
   const double rho0 = exp(uniform(-1, 1)), c0 = exp(uniform(-0.5, 0.5));
-  return solid_side(rho0 * uniform(0.98, 1.3), uniform(-0.3, 0.3), rho0 * c0 * c0 * uniform(0.0, 0.6), rho0,
-                    c0, uniform(1.0, 1.7), uniform(0.5, 2.0), 1 + (int)uniform(0, 3));
+  return solid_side(rho0 * uniform(0.98, 1.3), uniform(-0.3, 0.3),
+                    rho0 * c0 * c0 * uniform(0.0, 0.6), rho0, c0, uniform(1.0, 1.7),
+                    uniform(0.5, 2.0), 1 + (int)uniform(0, 3));
 }
 
 static sph_riemann_side mirrored(sph_riemann_side s) {
@@ -337,12 +343,19 @@ static void test_any_states(void **state) {
   (void)state;
   seed = 5;
   const int rounds = check_short_run ? 2 : 20;
-  int gaps = 0, waves[3] = {0};
+  int gaps = 0, beyond = 0, waves[3] = {0};
   for (int a = 0; a < 4; a++)
     for (int b = 0; b < 4; b++)
       for (int k = 0; k < rounds; k++) {
         const sph_riemann_side l = any_side(a), r = any_side(b);
-        const sph_riemann_solution s = solve(ctx, &l, &r);
+        sph_riemann_solution s;
+        sph_riemann_solution_init(&s);
+        const sph_status status = sph_riemann_solve(ctx, &l, &r, &s);
+        if (status == SPH_ERR_NUMERIC && (a == 3 || b == 3)) {
+          ++beyond; /* a solid already compressed has a Hugoniot of limited pressure */
+          continue;
+        }
+        check_ok(status);
         sph_riemann_side l2 = mirrored(r), r2 = mirrored(l);
         sph_riemann_solution q = solve(ctx, &l2, &r2);
         assert_true(q.p == s.p && q.v[0] == -s.v[1] && q.v[1] == -s.v[0] && q.gap == s.gap);
@@ -354,10 +367,11 @@ static void test_any_states(void **state) {
         r2.v += 0.75;
         q = solve(ctx, &l2, &r2);
         if (!s.gap) check_same(&s, &q, 0.75);
-        check_conservation(ctx, &l, &r, &s, a == 3 || b == 3 ? 4 : 40, a == 3 || b == 3 ? 1e-9 : 1e-10);
+        check_conservation(ctx, &l, &r, &s, 40, 1e-10);
         gaps += s.gap;
         ++waves[s.wave[0]];
       }
+  assert_true(beyond <= rounds / 2);
   assert_true(waves[SPH_WAVE_FAN] > rounds && waves[SPH_WAVE_SHOCK] > rounds);
   if (!check_short_run) assert_true(gaps > 0);
 }
@@ -474,7 +488,7 @@ static void test_spall(void **state) {
     else
       check_rel(s.rho[0], 0.1, 1e-12);
     sph_material_destroy(m);
-    check_conservation(ctx, &l, &r, &s, 100, 1e-12);
+    check_conservation(ctx, &l, &r, &s, 1000, 1e-12);
   }
 }
 
@@ -495,13 +509,120 @@ static void test_strong(void **state) {
   assert_true(s.p == 0 && s.gap == 0 && s.rho[0] == 1);
 }
 
+/* ---- what is refused --------------------------------------------------------------------- */
+
+#define REFUSE(change, status)                                                                    \
+  do {                                                                                            \
+    l = gas_side(1, 0, 1, 1.4, 0);                                                                \
+    change;                                                                                       \
+    check_status(sph_riemann_solve(ctx, &l, &r, &s), status);                                     \
+    assert_true(sph_context_last_error(ctx)[0] != 0);                                             \
+    check_status(sph_riemann_solve(ctx, &r, &l, &s), status);                                     \
+    check_status(sph_riemann_sample(ctx, &l, &r, &good, 1, &at, &rho, NULL, NULL, NULL), status); \
+    assert_memory_equal(&s, &before, sizeof s);                                                   \
+    assert_true(rho == 7);                                                                        \
+  } while (0)
+
+static void test_refused(void **state) {
+  (void)state;
+  const double at = 0.1;
+  double rho = 7;
+  sph_riemann_side l = gas_side(1, 0, 1, 1.4, 0), r = gas_side(1, 1, 1, 1.4, 0);
+  const sph_riemann_solution good = solve(ctx, &l, &r);
+  sph_riemann_solution s;
+  memset(&s, 0x55, sizeof s);
+  s.size = sizeof s;
+  sph_riemann_solution before;
+  memcpy(&before, &s, sizeof s);
+  static const double bad[] = {NAN, INFINITY, -INFINITY, -1.0};
+  for (int k = 0; k < 4; k++) {
+    REFUSE(l.rho = bad[k], SPH_ERR_ARG);
+    REFUSE(l.p = bad[k], SPH_ERR_ARG);
+    REFUSE(l.gamma = bad[k], SPH_ERR_ARG);
+    REFUSE(l.reference_pressure = bad[k], SPH_ERR_ARG);
+    if (k < 3) REFUSE(l.v = bad[k], SPH_ERR_ARG);
+    if (k < 3) REFUSE(l = void_side(bad[k]), SPH_ERR_ARG);
+    REFUSE(l = tait_side(bad[k], 0, 1, 1, 1), SPH_ERR_ARG);
+    REFUSE(l = tait_side(1, 0, bad[k], 1, 1), SPH_ERR_ARG);
+    REFUSE(l = tait_side(1, 0, 1, bad[k], 1), SPH_ERR_ARG);
+    REFUSE(l = tait_side(1, 0, 1, 1, bad[k]), SPH_ERR_ARG);
+    if (k < 3) REFUSE(l = tait_side(1, 0, 1, 1, 1); l.background = bad[k], SPH_ERR_ARG);
+    REFUSE(l = solid_side(1, 0, 0, bad[k], 1, 1.5, 2, SPH_HUGONIOT), SPH_ERR_ARG);
+    REFUSE(l = solid_side(1, 0, 0, 1, bad[k], 1.5, 2, SPH_HUGONIOT), SPH_ERR_ARG);
+    REFUSE(l = solid_side(1, 0, 0, 1, 1, bad[k], 2, SPH_HUGONIOT), SPH_ERR_ARG);
+    REFUSE(l = solid_side(1, 0, 0, 1, 1, 1.5, bad[k], SPH_HUGONIOT), SPH_ERR_ARG);
+  }
+  REFUSE(l.rho = 0, SPH_ERR_ARG);
+  REFUSE(l.gamma = 1, SPH_ERR_ARG);
+  REFUSE(l.law = 0, SPH_ERR_ARG);
+  REFUSE(l.law = 99, SPH_ERR_ARG);
+  REFUSE(l.size = 1, SPH_ERR_ARG);
+  REFUSE(l.rho = 1e-300; l.p = 1e300, SPH_ERR_NUMERIC);
+  REFUSE(l = solid_side(1, 0, 0, 1, 1, 1.5, 2, 0), SPH_ERR_ARG);
+  REFUSE(l = solid_side(1, 0, 0, 1, 1, 1.5, 2, 4), SPH_ERR_ARG);
+  REFUSE(l = solid_side(4, 0, 9, 1, 1, 1.5, 2, SPH_HUGONIOT), SPH_ERR_NUMERIC);    /* eta > 1/S */
+  REFUSE(l = solid_side(1, 0, -5, 1, 1, 1.5, 2, SPH_COLD_CUBIC), SPH_ERR_NUMERIC); /* c^2 < 0 */
+}
+
+static void test_refused_more(void **state) {
+  (void)state;
+  const double at[2] = {0.1, NAN};
+  double rho[2] = {7, 7};
+  const sph_riemann_side none = void_side(0);
+  sph_riemann_side l = gas_side(1, 0, 1, 1.4, 0), r = l;
+  sph_riemann_solution s = solve(ctx, &l, &r);
+  check_status(sph_riemann_solve(ctx, &none, &none, &s), SPH_ERR_ARG);
+  check_status(sph_riemann_sample(ctx, &l, &r, &s, -1, at, rho, NULL, NULL, NULL), SPH_ERR_ARG);
+  check_status(sph_riemann_sample(ctx, &l, &r, &s, 2, at, rho, NULL, NULL, NULL), SPH_ERR_ARG);
+  assert_non_null(strstr(sph_context_last_error(ctx), "speed[1]"));
+  check_ok(sph_riemann_sample(ctx, &l, &r, &s, 0, NULL, NULL, NULL, NULL, NULL));
+  assert_true(rho[0] == 7);
+  s.size = 2;
+  check_status(sph_riemann_solve(ctx, &l, &r, &s), SPH_ERR_ARG);
+  check_status(sph_riemann_sample(ctx, &l, &r, &s, 1, at, rho, NULL, NULL, NULL), SPH_ERR_ARG);
+  sph_riemann_solution_init(&s);
+  /* no pressure is high enough */
+  l.v = 1e200;
+  check_status(sph_riemann_solve(ctx, &l, &r, &s), SPH_ERR_NUMERIC);
+  /* the Hugoniot of 1/(1 - eta S) ends */
+  l = solid_side(1.01, 1e9, 0.01, 1, 1, 1.5, 2, SPH_HUGONIOT);
+  r = l;
+  r.v = -1e9;
+  const sph_status status = sph_riemann_solve(ctx, &l, &r, &s);
+  assert_true(status == SPH_ERR_NUMERIC || s.rho[0] < 3.0);
+}
+
+/* A longer side of a newer host, a shorter solution of an older one. */
+static void test_sizes(void **state) {
+  (void)state;
+  struct {
+    sph_riemann_side side;
+    double more;
+  } longer;
+  sph_riemann_side r = gas_side(1, 0, 1, 1.4, 0);
+  sph_riemann_solution s;
+  sph_riemann_solution_init(&s);
+  sph_riemann_side_init_sized(&longer.side, sizeof longer);
+  longer.side.rho = longer.side.p = 1;
+  check_ok(sph_riemann_solve(ctx, &longer.side, &r, &s));
+  longer.more = 1;
+  check_status(sph_riemann_solve(ctx, &longer.side, &r, &s), SPH_ERR_VERSION);
+  struct {
+    size_t size;
+    double p, guard;
+  } shorter = {offsetof(sph_riemann_solution, v), 0, 7};
+  check_ok(sph_riemann_solve(ctx, &r, &r, (sph_riemann_solution *)(void *)&shorter));
+  assert_true(shorter.p == 1 && shorter.guard == 7);
+}
+
 #define WITH(test) cmocka_unit_test_setup_teardown(test, open_context, close_context)
 static const struct CMUnitTest tests[] = {
-    WITH(test_air_air),          WITH(test_liquid_liquid), WITH(test_liquid_gas),
-    WITH(test_bubble),           WITH(test_toro),          WITH(test_asymmetric_impact),
-    WITH(test_isothermal_bar),   WITH(test_isentropic_bar), WITH(test_impacts),
-    WITH(test_fans),             WITH(test_any_states),    WITH(test_nothing),
-    WITH(test_sound),            WITH(test_vacuum),        WITH(test_unlike_void),
-    WITH(test_surfaces),         WITH(test_spall),         WITH(test_strong),
+    WITH(test_air_air),        WITH(test_liquid_liquid),  WITH(test_liquid_gas),
+    WITH(test_bubble),         WITH(test_toro),           WITH(test_asymmetric_impact),
+    WITH(test_isothermal_bar), WITH(test_isentropic_bar), WITH(test_impacts),
+    WITH(test_fans),           WITH(test_any_states),     WITH(test_nothing),
+    WITH(test_sound),          WITH(test_vacuum),         WITH(test_unlike_void),
+    WITH(test_surfaces),       WITH(test_spall),          WITH(test_strong),
+    WITH(test_refused),        WITH(test_refused_more),   WITH(test_sizes),
 };
 SPH_TEST_MAIN(tests)

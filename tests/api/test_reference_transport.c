@@ -67,7 +67,8 @@ static int64_t disc(int l, double *x) {
 static void test_drop(void **state) {
   (void)state;
   static const int l[] = {2, 4, 6, 8, 12, 16, 24, 32}, n[] = {4, 12, 32, 52, 112, 208, 448, 812};
-  static const double want[] = {0.353553, 0.220150, 0.150022, 0.112858, 0.075537, 0.057524, 0.038399};
+  static const double want[] = {0.353553, 0.220150, 0.150022, 0.112858,
+                                0.075537, 0.057524, 0.038399};
   static double x[2 * 812], y[2 * 812];
   const int last = check_short_run ? 5 : 7;
   for (int k = 0; k < last; k++) {
@@ -79,7 +80,8 @@ static void test_drop(void **state) {
   }
 }
 
-/* Zisis 4.5.2: the initial measures of the shock tube, 8 k particles to the left and k to the right */
+/* Zisis 4.5.2: the initial measures of the shock tube, 8 k particles to the left and k to the right
+ */
 static int64_t tube(int64_t k, double *x) {
   for (int64_t i = 0; i < 8 * k; i++) x[i] = 0.5 * ((double)i + 0.5) / (double)(8 * k);
   for (int64_t i = 0; i < k; i++) x[8 * k + i] = 0.5 + 0.5 * ((double)i + 0.5) / (double)k;
@@ -89,7 +91,8 @@ static int64_t tube(int64_t k, double *x) {
 static void test_tube(void **state) {
   (void)state;
   static const int k[] = {2, 5, 10, 25, 50, 100, 200};
-  static const double want[] = {1.44444e-2, 5.55556e-3, 2.88889e-3, 1.11111e-3, 5.55556e-4, 2.77778e-4};
+  static const double want[] = {1.44444e-2, 5.55556e-3, 2.88889e-3,
+                                1.11111e-3, 5.55556e-4, 2.77778e-4};
   static double x[1800], y[1800];
   for (int i = 0; i < 6; i++) {
     double d = -1;
@@ -101,12 +104,14 @@ static void test_tube(void **state) {
 
 /* ---- oracles ----------------------------------------------------------------------------- */
 
-static double best_order(const cloud *a, const cloud *b, int k, unsigned used, double so_far, double best) {
+static double best_order(const cloud *a, const cloud *b, int k, unsigned used, double so_far,
+                         double best) {
   if (so_far >= best) return best;
   if (k == a->n) return so_far;
   for (int j = 0; j < b->n; j++)
     if (!(used >> j & 1))
-      best = best_order(a, b, k + 1, used | 1u << j, so_far + length(a->x + k * a->dim, b->x + j * b->dim, a->dim), best);
+      best = best_order(a, b, k + 1, used | 1u << j,
+                        so_far + length(a->x + k * a->dim, b->x + j * b->dim, a->dim), best);
   return best;
 }
 
@@ -261,9 +266,9 @@ static void test_degenerate(void **state) {
 
 static void test_refused(void **state) {
   (void)state;
-  const double x[4] = {0, 1, 2, 3}, bad[4] = {0, INFINITY, 0, 0}, m[2] = {1, 1}, half[2] = {0.5, 0.5},
-               negative[2] = {2, -1}, none[2] = {0, 0}, huge[4] = {1e308, 0, -1e308, 0},
-               heavy[2] = {1e308, 1e308};
+  const double x[4] = {0, 1, 2, 3}, bad[4] = {0, INFINITY, 0, 0}, m[2] = {1, 1},
+               half[2] = {0.5, 0.5}, negative[2] = {2, -1}, none[2] = {0, 0},
+               huge[4] = {1e308, 0, -1e308, 0}, heavy[2] = {1e308, 1e308};
   double d = 7;
 #define REFUSE(status, dim, nx, px, mx, ny, py, my) \
   check_status(sph_wasserstein_distance(ctx, dim, nx, px, mx, ny, py, my, &d), status)
@@ -303,7 +308,8 @@ static void test_stopped(void **state) {
   check_ok(sph_context_create(&o, &own));
   seed = 9;
   const cloud a = random_cloud(1000, 2, 1), b = random_cloud(1000, 2, 1);
-  check_status(sph_wasserstein_distance(own, 2, a.n, a.x, a.m, b.n, b.x, b.m, &d), SPH_ERR_CALLBACK);
+  check_status(sph_wasserstein_distance(own, 2, a.n, a.x, a.m, b.n, b.x, b.m, &d),
+               SPH_ERR_CALLBACK);
   assert_true(d == 7 && calls == 2);
   sph_context_destroy(own);
 }
@@ -327,8 +333,8 @@ static void test_memory(void **state) {
 
 #define WITH(test) cmocka_unit_test_setup_teardown(test, open_context, close_context)
 static const struct CMUnitTest tests[] = {
-    WITH(test_drop),    WITH(test_tube),   WITH(test_permutations), WITH(test_repeated),
-    WITH(test_line),    WITH(test_bounds), WITH(test_metric),       WITH(test_same_measure),
-    WITH(test_degenerate), WITH(test_refused), WITH(test_stopped),  WITH(test_memory),
+    WITH(test_drop),       WITH(test_tube),    WITH(test_permutations), WITH(test_repeated),
+    WITH(test_line),       WITH(test_bounds),  WITH(test_metric),       WITH(test_same_measure),
+    WITH(test_degenerate), WITH(test_refused), WITH(test_stopped),      WITH(test_memory),
 };
 SPH_TEST_MAIN(tests)
