@@ -144,7 +144,7 @@ static CHECK_UNUSED void check_conservation(sph_context *ctx, const sph_riemann_
   double now[3] = {0}, scale[3] = {1e-300, 1e-300, 1e-300};
   for (int k = 0; k < 2; k++) { /* fans end at their tails */
     const double kink = kink_of(ctx, left, right, s, k);
-    const int many = side[k]->law == SPH_RIEMANN_MIE_GRUNEISEN ? 1 + panels / 10 : panels;
+    const int many = side[k]->law == SPH_RIEMANN_MIE_GRUNEISEN ? 1 + panels / 3 : panels;
     add_integrals(ctx, left, right, s, k == 0 ? -end : end, s->head[k], 1, now);
     add_integrals(ctx, left, right, s, s->head[k], kink, many, now);
     add_integrals(ctx, left, right, s, kink, s->tail[k], many, now);

@@ -100,7 +100,7 @@ SPH_API void sph_riemann_solution_init_sized(sph_riemann_solution *solution, siz
  *
  * Every law is taken as convex: compressions are shocks, expansions are fans. Closed forms for GAS
  * and BAROTROPIC, about 20 evaluations; for MIE_GRUNEISEN isentropes are integrated by
- * extrapolation to 1e-14, about a millisecond. ctx takes the sentence of a failure. *solution must
+ * extrapolation to 1e-14, a few milliseconds. ctx takes the sentence of a failure. *solution must
  * be initialised; nothing in it changes on failure.
  *
  * SPH_ERR_ARG: ctx, a side or solution NULL, an unknown law or curve, a constant or a state out of
@@ -210,11 +210,11 @@ SPH_API sph_status sph_gresho_solution(sph_context *ctx, const sph_gresho_option
  * ny. 2-D, 3-D: the transport problem by a primal network simplex on a strongly feasible tree,
  * which cannot cycle (W. Cunningham, Math. Program. 11 (1976) 105-116), begun along a space-filling
  * curve; all nx * ny arcs are priced, but none is stored. Exact: no entropy, no neglected arcs. The
- * cost is about n^2 to n^2.5 operations: 448 to 812 points take about 0.1 s, 3228 to 7232 about a
- * minute. The progress hook is called, with an estimate, and may stop it. Masses are counted in
- * whole units, exactly where all masses of either set are the same and else in 2^-50 of the total:
- * error of W1 about 1e-13 of the largest distance. About 100 bytes a point, given back.
- * Same bits for any number of threads: it runs on the calling one.
+ * cost grows as n^2 to n^2.5: 448 to 812 points of a lattice take about 0.02 s, 3228 to 7232 about
+ * 4 s. The progress hook is called, with an estimate, and may stop it. Masses are counted in whole
+ * units, exactly where all masses of either set are the same and else in 2^-50 of the total: error
+ * of W1 about 1e-13 of the largest distance. About 100 bytes a point, given back. Same bits for any
+ * number of threads: it runs on the calling one.
  *
  * SPH_ERR_ARG: dim outside 1..3, nx or ny < 1, x, y or distance NULL, a position or mass not finite
  * or a mass negative (named), a total that is 0, totals that differ. SPH_ERR_LIMIT: nx or ny above

@@ -77,7 +77,7 @@ static double midpoint(const isentrope *s, double z, double h, int steps, double
 }
 
 /* The energy at z + h, extrapolated: Hairer, Norsett, Wanner, Solving ODEs I, section II.9. */
-enum { COLUMNS = 6 };
+enum { COLUMNS = 4 };
 static double advance(const isentrope *s, double z, double h, double e) {
   double row[COLUMNS];
   for (int j = 0; j < COLUMNS; ++j) {

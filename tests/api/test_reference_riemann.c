@@ -213,7 +213,7 @@ static void test_isentropic_bar(void **state) {
   check_printed(0.8 + t * s.tail[0], 0.68090, 5);
   check_printed(0.8 + t * s.v[0], 0.90081, 5);
   check_printed(0.8 + t * s.head[1], 1.01013, 5);
-  check_conservation(ctx, &l, &r, &s, 200, 1e-13);
+  check_conservation(ctx, &l, &r, &s, 60, 1e-13);
 }
 
 static sph_riemann_side metal(int32_t which, double v, int32_t curve) {
@@ -346,7 +346,7 @@ static void test_any_states(void **state) {
   int gaps = 0, beyond = 0, waves[3] = {0};
   for (int a = 0; a < 4; a++)
     for (int b = 0; b < 4; b++)
-      for (int k = 0; k < rounds; k++) {
+      for (int k = 0; k < (a == 3 || b == 3 ? 1 + rounds / 5 : rounds); k++) {
         const sph_riemann_side l = any_side(a), r = any_side(b);
         sph_riemann_solution s;
         sph_riemann_solution_init(&s);
@@ -367,11 +367,11 @@ static void test_any_states(void **state) {
         r2.v += 0.75;
         q = solve(ctx, &l2, &r2);
         if (!s.gap) check_same(&s, &q, 0.75);
-        check_conservation(ctx, &l, &r, &s, 40, 1e-10);
+        check_conservation(ctx, &l, &r, &s, 80, 1e-10);
         gaps += s.gap;
         ++waves[s.wave[0]];
       }
-  assert_true(beyond <= rounds / 2);
+  assert_true(beyond <= 1 + rounds / 5);
   assert_true(waves[SPH_WAVE_FAN] > rounds && waves[SPH_WAVE_SHOCK] > rounds);
   if (!check_short_run) assert_true(gaps > 0);
 }
@@ -488,7 +488,7 @@ static void test_spall(void **state) {
     else
       check_rel(s.rho[0], 0.1, 1e-12);
     sph_material_destroy(m);
-    check_conservation(ctx, &l, &r, &s, 1000, 1e-12);
+    check_conservation(ctx, &l, &r, &s, 300, 1e-12);
   }
 }
 
