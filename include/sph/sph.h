@@ -19,6 +19,7 @@
 #include <sph/operators.h>
 #include <sph/particles.h>
 #include <sph/plasticity.h>
+#include <sph/reference.h>
 #include <sph/rhs.h>
 #include <sph/total_lagrangian.h>
 #include <sph/stress.h>

@@ -6,7 +6,7 @@ cd "$(dirname "$0")/../.."
 bad=0
 find src -name '*.[ch]' -o -name '*.inc' | sort | xargs -r awk '
   BEGIN {
-    split("core|kernel material|particles|neighbors layout|sweep|operators boundary|rhs poisson body|" \
+    split("core|kernel material reference|particles|neighbors layout|sweep|operators boundary|rhs poisson body|" \
           "integrate adapt|scheme io halo", rows, "|")
     for (r in rows) { n = split(rows[r], names, " "); for (k = 1; k <= n; ++k) row[names[k]] = r + 0 }
   }
