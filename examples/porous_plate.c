@@ -99,13 +99,6 @@ static void principal(const double *s, double *larger, double *smaller) {
   *smaller = mean - radius;
 }
 
-/* Cauchy stress of the last stage. */
-static void find_stress(plate *p) {
-  if (p->o.motion != PLATE_TOTAL) return; /* it is a field that advances */
-  const double *F = field(p->ctx, p->set, SPH_FIELD_F);
-  need(p->ctx, sph_material_cauchy_stress(p->material, 2, p->n, F, p->sigma));
-}
-
 static void measure(plate *p, outcome *r) {
   const int64_t top = nearest(p, 0.0, side), rim = nearest(p, 0.0, 0.3);
   double smaller;
