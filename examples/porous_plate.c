@@ -14,7 +14,8 @@
  * Measure     relative change of the vertical diameter of each hole
  * Expected    that order: -.446 (1), -.562 (5), -.104 (6), -.074 (2) at dp = .025, within .01 at
  *             dp = .05. Beyond a strain of .15 the columns beside hole 5 buckle, and hole 6, which
- *             had lost .19 of its height, opens again.
+ *             had lost .19 of its height, opens again. With dp = .0124 the side of hole 5, at (.3,
+ * 0), creases, and the run ends at a strain of .197 where det F turns negative there.
  *
  *   porous_plate             dp = .025, principal stresses at three times as CSV, with a picture
  *   porous_plate validate    the same, RESULT lines; long: dp = .0124, 4600 particles as well */
