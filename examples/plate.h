@@ -26,7 +26,8 @@ static const double density = 1738.0, young = 45e9, poisson = 0.35;
 enum {
   PLATE_FROZEN = 0, /* small strains: Hooke, pairs and kernels are those at rest */
   PLATE_MOVING = 1, /* Hooke with the Jaumann rate; positions and densities advance */
-  PLATE_TOTAL = 2   /* total-Lagrangian, neo-Hookean */
+  PLATE_TOTAL = 2,  /* total-Lagrangian, neo-Hookean */
+  PLATE_LINEAR = 3  /* the same with Hooke's law for small strains */
 };
 
 typedef struct plate_options {
@@ -60,6 +61,10 @@ typedef struct plate {
   double *x, *v, *sigma, *m, *rest; /* fields of the set; rest: where the particles were */
 } plate;
 
+static int is_total(const plate *p) {
+  return p->o.motion == PLATE_TOTAL || p->o.motion == PLATE_LINEAR;
+}
+
 /* ---- symmetry ---------------------------------------------------------------------------- */
 
 /* Ghosts beyond both planes of symmetry. They need gradient matrices, or deformation gradients, of
@@ -70,7 +75,7 @@ static void make_ghosts(plate *p) {
   sph_ghosts_options_init(&options);
   options.dim = 2;
   options.support = 4.0;
-  options.position_field = p->o.motion == PLATE_TOTAL ? SPH_FIELD_X0 : SPH_FIELD_X;
+  options.position_field = is_total(p) ? SPH_FIELD_X0 : SPH_FIELD_X;
   options.skin = 0.1 * p->o.dp;
   need(p->ctx, sph_ghosts_create(p->ctx, &options, &p->ghosts));
   for (int a = 0; a < 2; ++a) {
@@ -187,7 +192,7 @@ static void add_term(plate *p, sph_term term, int32_t kind, int32_t form, int32_
 }
 
 static void add_terms(plate *p) {
-  const int total = p->o.motion == PLATE_TOTAL;
+  const int total = is_total(p);
   sph_term term;
   sph_term_init(&term);
   if (p->o.motion != PLATE_FROZEN) add_term(p, term, SPH_TERM_MOTION, 0, 0);
@@ -223,7 +228,7 @@ static void make_rhs(plate *p) {
   sph_kernel *kernel;
   sph_rhs_options options;
   sph_rhs_options_init(&options);
-  if (p->o.motion == PLATE_TOTAL) options.position_field = SPH_FIELD_X0;
+  if (is_total(p)) options.position_field = SPH_FIELD_X0;
   need(p->ctx, sph_kernel_create(p->ctx, SPH_KERNEL_CUBIC_SPLINE, 2, &kernel));
   need(p->ctx, sph_rhs_create(p->ctx, kernel, &options, &p->rhs));
   sph_kernel_destroy(kernel); /* the right-hand side keeps it */
@@ -235,11 +240,11 @@ static void make_rhs(plate *p) {
 static void make_integrator(plate *p) {
   static const struct {
     int32_t field;
-    int in[3]; /* whether it advances when frozen, moving, total-Lagrangian */
-  } fields[] = {{SPH_FIELD_X, {0, 1, 1}},
-                {SPH_FIELD_RHO, {0, 1, 0}},
-                {SPH_FIELD_V, {1, 1, 1}},
-                {SPH_FIELD_SIGMA, {1, 1, 0}}};
+    int in[4]; /* whether it advances, by motion */
+  } fields[] = {{SPH_FIELD_X, {0, 1, 1, 1}},
+                {SPH_FIELD_RHO, {0, 1, 0, 0}},
+                {SPH_FIELD_V, {1, 1, 1, 1}},
+                {SPH_FIELD_SIGMA, {1, 1, 0, 0}}};
   sph_integrator_options options;
   sph_integrator_options_init(&options);
   options.method = p->o.scheme;
@@ -268,6 +273,13 @@ static void plate_create(plate *p, const plate_options *o) {
   make_rhs(p);
   make_integrator(p);
   p->dt = o->cfl * p->smallest / p->c;
+}
+
+/* SIGMA as of the last stage: a field that advances, or by the law from F. */
+static void find_stress(plate *p) {
+  if (!is_total(p)) return;
+  const double *F = field(p->ctx, p->set, SPH_FIELD_F);
+  need(p->ctx, sph_material_cauchy_stress(p->material, 2, p->n, F, p->sigma));
 }
 
 static void plate_destroy(plate *p) {
