@@ -98,7 +98,8 @@ SPH_API void sph_riemann_solution_init_sized(sph_riemann_solution *solution, siz
  * of the solution; a material that could bear less ends there with a free surface. With P_ref = 0
  * this is Toro 4.6.
  *
- * Every law is taken as convex: compressions are shocks, expansions are fans. Closed forms for GAS
+ * Laws are taken as convex: compressions are shocks, expansions are fans. (In strong tension
+ * Mie-Grueneisen may not be; an expansion there is refused.) Closed forms for GAS
  * and BAROTROPIC, about 20 evaluations; for MIE_GRUNEISEN isentropes are integrated by
  * extrapolation to 1e-14, a few milliseconds. ctx takes the sentence of a failure. *solution must
  * be initialised; nothing in it changes on failure.
@@ -108,7 +109,8 @@ SPH_API void sph_riemann_solution_init_sized(sph_riemann_solution *solution, siz
  * SPH_ERR_NUMERIC: a state of Mie-Grueneisen where c^2 <= 0 or that lies beyond the curve; a
  * compression that the law cannot reach: rho >= rho_1 (1 + 2/Gamma) unless from rest at rho0, where
  * the Hugoniot is the curve itself, for COLD_CUBIC 1/rho <= 1/rho_1 - 2/(Gamma rho0), with
- * SPH_HUGONIOT also 1 - rho0/rho >= 1/S; a pressure that overflows. SPH_ERR_VERSION. Since 0.1. */
+ * SPH_HUGONIOT also 1 - rho0/rho >= 1/S; a pressure that overflows. SPH_ERR_UNSUPPORTED: an
+ * expansion of Mie-Grueneisen along which the law is not convex. SPH_ERR_VERSION. Since 0.1. */
 SPH_API sph_status sph_riemann_solve(sph_context *ctx, const sph_riemann_side *left,
                                      const sph_riemann_side *right, sph_riemann_solution *solution);
 

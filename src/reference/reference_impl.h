@@ -29,6 +29,8 @@ typedef struct sphi_riemann_law {
   sphi_wave (*wave)(const sphi_side *side, double p);
   /* Within a fan, where gain + c = speed. */
   sphi_wave (*fan)(const sphi_side *side, double speed);
+  /* Whether gain + c falls all the way to a wave behind a fan; NULL: always. */
+  int (*convex)(const sphi_side *side, const sphi_wave *behind);
 } sphi_riemann_law;
 
 struct sphi_side {

@@ -129,10 +129,20 @@ static sph_status middle(sph_context *ctx, const sphi_side side[2], double *p, i
 
 /* ---- the solution ------------------------------------------------------------------------ */
 
+static sph_status check_convex(sph_context *ctx, const sphi_side *side, const sphi_wave *behind,
+                               int k) {
+  if (!(behind->p < side->start.p) || !side->law->convex || side->law->convex(side, behind))
+    return SPH_OK;
+  return sphi_fail(ctx, SPH_ERR_UNSUPPORTED,
+                   "%s: between rho = %g and %g the law is not convex, its expansion is no fan",
+                   k == 0 ? "left" : "right", behind->rho, side->start.rho);
+}
+
 /* One side of the solution; sign is -1 for the left, whose waves move to the left. */
-static void describe(const sphi_side *side, int k, double p, sph_riemann_solution *out) {
+static sph_status describe(sph_context *ctx, const sphi_side *side, int k, double p,
+                           sph_riemann_solution *out) {
   const double sign = k == 0 ? -1.0 : 1.0, v = side->given.v;
-  if (!side->law) return;
+  if (!side->law) return SPH_OK;
   const sphi_wave w = side->law->wave(side, p);
   out->rho[k] = w.rho;
   out->e[k] = w.e;
@@ -141,6 +151,7 @@ static void describe(const sphi_side *side, int k, double p, sph_riemann_solutio
   out->head[k] = v + sign * w.front;
   out->tail[k] = p < side->start.p ? out->v[k] + sign * w.c : out->head[k];
   out->wave[k] = p < side->start.p ? SPH_WAVE_FAN : p > side->start.p ? SPH_WAVE_SHOCK : 0;
+  return check_convex(ctx, side, &w, k);
 }
 
 static int all_finite(const sph_riemann_solution *s) {
@@ -171,8 +182,8 @@ sph_status sph_riemann_solve(sph_context *ctx, const sph_riemann_side *left,
     return sphi_fail(ctx, SPH_ERR_ARG,
                      "the size %zu of the solution was not set by its init function", size);
   s = middle(ctx, side, &out.p, &out.gap);
+  for (int k = 0; k < 2 && s == SPH_OK; ++k) s = describe(ctx, &side[k], k, out.p, &out);
   if (s != SPH_OK) return s;
-  for (int k = 0; k < 2; ++k) describe(&side[k], k, out.p, &out);
   join(side, &out);
   if (!all_finite(&out))
     return sphi_fail(ctx, SPH_ERR_NUMERIC, "the pressure %g is beyond what the laws reach", out.p);

@@ -68,7 +68,7 @@ static sphi_wave gas_fan(const sphi_side *side, double speed) {
   return gas_complete(side, gas_isentrope(side, log(fmax(c, 0.0) / c1)));
 }
 
-const sphi_riemann_law sphi_riemann_gas = {gas_prepare, gas_wave, gas_fan};
+const sphi_riemann_law sphi_riemann_gas = {gas_prepare, gas_wave, gas_fan, NULL};
 
 /* ---- barotropic: all in the ratio rho/rho0 ---- */
 
@@ -147,4 +147,4 @@ static sphi_wave barotropic_fan(const sphi_side *side, double speed) {
 }
 
 const sphi_riemann_law sphi_riemann_barotropic = {barotropic_prepare, barotropic_wave,
-                                                  barotropic_fan};
+                                                  barotropic_fan, NULL};

@@ -282,6 +282,26 @@ static sphi_wave solid_fan(const sphi_side *side, double speed) {
   return expand(side, sphi_root(fan_miss, &t, side->slowest, log(side->given.rho)));
 }
 
+/* In strong tension the cubic may turn its other side, and an expansion is no fan any more. */
+static int solid_convex(const sphi_side *side, const sphi_wave *behind) {
+  enum { STEPS = 64 };
+  const isentrope s = {&side->given, side->slowest, 0};
+  const double start = sqrt(log(side->given.rho) - side->slowest);
+  const double end = sqrt(fmax(log(behind->rho) - side->slowest, 0.0));
+  double e = side->start.e, gain = 0.0, last = side->start.c;
+  for (int k = 0; k < STEPS; ++k) {
+    const double z = start + (end - start) * k / STEPS;
+    const double next = start + (end - start) * (k + 1) / STEPS;
+    panels(&s, z, next, &e, &gain);
+    const double rho = density_at(&s, next);
+    const coefficients c = coefficients_at(&side->given, rho);
+    const double speed = gain + sqrt(fmax(sound2_of(&c, rho, e), 0.0));
+    if (speed > last) return 0;
+    last = speed;
+  }
+  return 1;
+}
+
 static sph_status check_constants(sph_context *ctx, const sph_riemann_side *m, const char *name) {
   sph_status s = sphi_riemann_above(ctx, name, "density", m->density, 0.0, 0);
   if (s == SPH_OK) s = sphi_riemann_above(ctx, name, "sound_speed", m->sound_speed, 0.0, 0);
@@ -312,4 +332,5 @@ static sph_status solid_prepare(sph_context *ctx, sphi_side *side, const char *n
   return SPH_OK;
 }
 
-const sphi_riemann_law sphi_riemann_mie_gruneisen = {solid_prepare, solid_wave, solid_fan};
+const sphi_riemann_law sphi_riemann_mie_gruneisen = {solid_prepare, solid_wave, solid_fan,
+                                                     solid_convex};
