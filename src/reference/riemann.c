@@ -88,7 +88,7 @@ static double reach(const sphi_side side[2], double low) {
   const double dv = side[1].given.v - side[0].given.v;
   double d = fmax(side[0].start.p, side[1].start.p) - low, good = 0.0, bad = INFINITY;
   if (!(d > 0.0)) d = fmax(fmax(side[0].given.rho, side[1].given.rho) * dv * dv, DBL_MIN);
-  while (d > good && d < bad) {
+  while (d > good && d < bad && low + d > low) {
     const double f = closing(side, low + d);
     if (f >= 0.0 && isfinite(f)) return d;
     *(isfinite(f) ? &good : &bad) = d;
