@@ -338,12 +338,20 @@ static void check_same(const sph_riemann_solution *s, const sph_riemann_solution
   }
 }
 
+/* Beyond the inflection of the cold cubic, u = -K2/(3 K3), sound gets faster under expansion and a
+ * fan steepens nearly to a jump, which the quadrature of the weak form does not resolve. */
+static int resolved(const sph_riemann_side *side, double rho) {
+  const double s = side->slope - 1.0;
+  if (side->law != SPH_RIEMANN_MIE_GRUNEISEN || side->curve != SPH_COLD_CUBIC) return 1;
+  return rho / side->density - 1.0 > -(1.0 + 2.0 * s) / (6.0 * s + 9.0 * s * s);
+}
+
 /* Seen in a mirror, bit for bit; from a moving frame; and as a weak solution. */
 static void test_any_states(void **state) {
   (void)state;
   seed = 5;
   const int rounds = check_short_run ? 2 : 20;
-  int gaps = 0, beyond = 0, waves[3] = {0};
+  int gaps = 0, beyond = 0, weak = 0, waves[3] = {0};
   for (int a = 0; a < 4; a++)
     for (int b = 0; b < 4; b++)
       for (int k = 0; k < (a == 3 || b == 3 ? 1 + rounds / 10 : rounds); k++) {
@@ -368,11 +376,14 @@ static void test_any_states(void **state) {
         r2.v += 0.75;
         q = solve(ctx, &l2, &r2);
         if (!s.gap) check_same(&s, &q, 0.75);
-        check_conservation(ctx, &l, &r, &s, 160, 1e-10);
+        if (resolved(&l, s.rho[0]) && resolved(&r, s.rho[1])) {
+          check_conservation(ctx, &l, &r, &s, 160, 1e-10);
+          ++weak;
+        }
         gaps += s.gap;
         ++waves[s.wave[0]];
       }
-  assert_true(beyond <= 1 + rounds / 10);
+  assert_true(beyond <= 1 + rounds / 10 && weak > 9 * rounds);
   assert_true(waves[SPH_WAVE_FAN] > rounds && waves[SPH_WAVE_SHOCK] > rounds);
   if (!check_short_run) assert_true(gaps > 0);
 }
