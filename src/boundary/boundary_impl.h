@@ -7,11 +7,7 @@
 
 #include <sph/boundary.h>
 
-enum {
-  SPHI_MAGIC_GHOSTS = 0x53504841,
-  SPHI_MAGIC_HOLD = 0x53504842,
-  SPHI_MAX_WALLS = 32
-};
+enum { SPHI_MAGIC_GHOSTS = 0x53504841, SPHI_MAGIC_HOLD = 0x53504842, SPHI_MAX_WALLS = 32 };
 
 typedef struct sphi_plane {
   double point[3], normal[3];

@@ -67,9 +67,9 @@ static sph_status check_needs(sph_context *ctx, const sph_operands *a, uint32_t 
   return s;
 }
 
-sph_status sphi_operator_begin(sph_neighbors *list, const sph_kernel *kernel,
-                               const sph_operands *a, uint32_t needs, const void *output,
-                               const char *name, sph_operands *own) {
+sph_status sphi_operator_begin(sph_neighbors *list, const sph_kernel *kernel, const sph_operands *a,
+                               uint32_t needs, const void *output, const char *name,
+                               sph_operands *own) {
   sph_status s = check_handles(list, kernel, a, output, name);
   if (s) return s;
   sph_operands_init(own);

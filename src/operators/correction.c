@@ -61,9 +61,8 @@ sph_status sphi_gradient_matrices(sph_neighbors *list, const sph_kernel *kernel,
   return s ? s : invert_all(list, own, inverse, fallbacks);
 }
 
-sph_status sph_gradient_matrix(sph_neighbors *list, const sph_kernel *kernel,
-                               const sph_operands *a, double *inverse, double *matrix,
-                               int64_t *fallbacks) {
+sph_status sph_gradient_matrix(sph_neighbors *list, const sph_kernel *kernel, const sph_operands *a,
+                               double *inverse, double *matrix, int64_t *fallbacks) {
   sph_operands own;
   sph_status s = sphi_operator_begin(list, kernel, a, SPHI_NEED_M | SPHI_NEED_RHO, inverse,
                                      "sph_gradient_matrix", &own);

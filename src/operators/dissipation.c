@@ -5,8 +5,7 @@
 #include <string.h>
 
 sph_status sph_viscosity_monaghan(sph_neighbors *list, const sph_kernel *kernel,
-                                  const sph_operands *a, double alpha, double beta,
-                                  double *dvdt) {
+                                  const sph_operands *a, double alpha, double beta, double *dvdt) {
   sph_operands own;
   uint32_t needs = SPHI_NEED_V | SPHI_NEED_M | SPHI_NEED_RHO | SPHI_NEED_C;
   sph_status s = sphi_operator_begin(list, kernel, a, needs, dvdt, "sph_viscosity_monaghan", &own);
@@ -55,8 +54,7 @@ void sph_bulk_viscosity_init_sized(sph_bulk_viscosity *options, size_t size) {
   options->size = size;
 }
 
-double sphi_bulk_pressure(const sph_bulk_viscosity *o, double div, double h, double rho,
-                          double c) {
+double sphi_bulk_pressure(const sph_bulk_viscosity *o, double div, double h, double rho, double c) {
   if (!(div < 0.0)) return 0.0;
   double dx = o->spacing, d = -div;
   return o->neumann * dx * dx * rho * d * d + o->linear * dx * c * rho * d +
@@ -89,8 +87,8 @@ static void bulk_range(void *job, int64_t lo, int64_t hi, int32_t worker) {
 }
 
 sph_status sphi_bulk_pressures(sph_neighbors *list, const sph_kernel *kernel,
-                               const sph_operands *own, const sph_bulk_viscosity *o,
-                               double *gradv, double *q) {
+                               const sph_operands *own, const sph_bulk_viscosity *o, double *gradv,
+                               double *q) {
   sphi_sweep sweep = sphi_sweep_of(kernel, own, SPHI_GRADV);
   bulk_job job = {own, o, gradv, q};
   sweep.gradv = gradv;
@@ -114,8 +112,8 @@ static sph_status run_bulk(sph_neighbors *list, const sph_kernel *kernel, const 
                            const sph_bulk_viscosity *o, double *q, double *dvdt) {
   sph_context *ctx = list->base.ctx;
   size_t n = (size_t)own->n, dd = (size_t)(own->dim * own->dim);
-  sph_status s = sphi_buffer_reserve(ctx, &list->scratch[SCRATCH_GRADV],
-                                     sphi_mul(n, dd * sizeof(double)));
+  sph_status s =
+      sphi_buffer_reserve(ctx, &list->scratch[SCRATCH_GRADV], sphi_mul(n, dd * sizeof(double)));
   if (!s) s = sphi_buffer_reserve(ctx, &list->scratch[SCRATCH_Q], sphi_mul(n, sizeof(double)));
   if (s) return s;
   double *all = list->scratch[SCRATCH_Q].ptr;
@@ -129,9 +127,8 @@ static sph_status run_bulk(sph_neighbors *list, const sph_kernel *kernel, const 
   return s;
 }
 
-sph_status sph_viscosity_bulk(sph_neighbors *list, const sph_kernel *kernel,
-                              const sph_operands *a, const sph_bulk_viscosity *options, double *q,
-                              double *dvdt) {
+sph_status sph_viscosity_bulk(sph_neighbors *list, const sph_kernel *kernel, const sph_operands *a,
+                              const sph_bulk_viscosity *options, double *q, double *dvdt) {
   sph_operands own;
   sph_bulk_viscosity o;
   uint32_t needs = SPHI_NEED_V | SPHI_NEED_M | SPHI_NEED_RHO;

@@ -160,10 +160,9 @@ static sph_status run_points(sph_neighbors *list, points_job *job, int64_t np) {
   return SPH_OK;
 }
 
-sph_status sph_interpolate_at(sph_neighbors *list, const sph_kernel *kernel,
-                              const sph_operands *a, int32_t shepard, int64_t np,
-                              const double *points, int32_t components, const double *f,
-                              double *out) {
+sph_status sph_interpolate_at(sph_neighbors *list, const sph_kernel *kernel, const sph_operands *a,
+                              int32_t shepard, int64_t np, const double *points, int32_t components,
+                              const double *f, double *out) {
   sph_operands own;
   sph_status s = sphi_operator_begin(list, kernel, a, SPHI_NEED_M | SPHI_NEED_RHO, out,
                                      "sph_interpolate_at", &own);

@@ -19,11 +19,11 @@ enum {
   SPHI_NEED_MATRIX = 1 << 6
 };
 
-/* Check handles, sizes and needed arrays, and copy the caller's operands over *own, with `rows` filled in. `name` is the
- * operator's, for the sentence. */
-sph_status sphi_operator_begin(sph_neighbors *list, const sph_kernel *kernel,
-                               const sph_operands *a, uint32_t needs, const void *output,
-                               const char *name, sph_operands *own);
+/* Check handles, sizes and needed arrays, and copy the caller's operands over *own, with `rows`
+ * filled in. `name` is the operator's, for the sentence. */
+sph_status sphi_operator_begin(sph_neighbors *list, const sph_kernel *kernel, const sph_operands *a,
+                               uint32_t needs, const void *output, const char *name,
+                               sph_operands *own);
 
 /* A sweep with one set of terms, corrected where the operands have a matrix. */
 sphi_sweep sphi_sweep_of(const sph_kernel *kernel, const sph_operands *own, uint32_t terms);
@@ -37,7 +37,7 @@ sph_status sphi_gradient_matrices(sph_neighbors *list, const sph_kernel *kernel,
 
 /* q of every row < rows, 0 for the rest up to n; `gradv` is scratch for rows * dim * dim. */
 sph_status sphi_bulk_pressures(sph_neighbors *list, const sph_kernel *kernel,
-                               const sph_operands *own, const sph_bulk_viscosity *o,
-                               double *gradv, double *q);
+                               const sph_operands *own, const sph_bulk_viscosity *o, double *gradv,
+                               double *q);
 
 #endif

@@ -20,10 +20,14 @@ typedef struct host_block {
 
 static double pair_h(int32_t rule, double a, double b) {
   switch (rule) {
-    case SPH_H_HARMONIC: return 2.0 * a * b / (a + b);
-    case SPH_H_MAX: return a > b ? a : b;
-    case SPH_H_MIN: return a < b ? a : b;
-    default: return 0.5 * (a + b);
+  case SPH_H_HARMONIC:
+    return 2.0 * a * b / (a + b);
+  case SPH_H_MAX:
+    return a > b ? a : b;
+  case SPH_H_MIN:
+    return a < b ? a : b;
+  default:
+    return 0.5 * (a + b);
   }
 }
 

@@ -76,7 +76,7 @@ SPHI_INLINE void sphi_kv_gaussian(vd q, double support, vd *w, vd *g) {
 
 /* Any other profile, lane by lane. */
 static __attribute__((noinline, unused)) void sphi_kv_lanes(const struct sph_kernel *kernel,
-                                                           const double *q, double *w, double *g) {
+                                                            const double *q, double *w, double *g) {
   for (int l = 0; l < VW; ++l) {
     sphi_kernel_profile(kernel, q[l], &w[l], &g[l]);
     g[l] = q[l] > 0.0 ? g[l] / q[l] : 0.0;
@@ -92,16 +92,29 @@ SPHI_INLINE void sphi_kv_other(const struct sph_kernel *kernel, vd q, vd *w, vd 
 }
 
 /* w(q) and w'(q)/q. */
-SPHI_INLINE void sphi_kv(const struct sph_kernel *kernel, int type, int dim, vd q, vd *w,
-                         vd *g) {
+SPHI_INLINE void sphi_kv(const struct sph_kernel *kernel, int type, int dim, vd q, vd *w, vd *g) {
   switch (type) {
-    case SPH_KERNEL_WENDLAND_C2: sphi_kv_c2(q, dim, w, g); break;
-    case SPH_KERNEL_CUBIC_SPLINE: sphi_kv_cubic(q, w, g); break;
-    case SPH_KERNEL_WENDLAND_C4: sphi_kv_c4(q, dim, w, g); break;
-    case SPH_KERNEL_WENDLAND_C6: sphi_kv_c6(q, dim, w, g); break;
-    case SPH_KERNEL_QUINTIC_SPLINE: sphi_kv_quintic(q, w, g); break;
-    case SPH_KERNEL_GAUSSIAN: sphi_kv_gaussian(q, 3.0, w, g); break;
-    default: sphi_kv_other(kernel, q, w, g); break;
+  case SPH_KERNEL_WENDLAND_C2:
+    sphi_kv_c2(q, dim, w, g);
+    break;
+  case SPH_KERNEL_CUBIC_SPLINE:
+    sphi_kv_cubic(q, w, g);
+    break;
+  case SPH_KERNEL_WENDLAND_C4:
+    sphi_kv_c4(q, dim, w, g);
+    break;
+  case SPH_KERNEL_WENDLAND_C6:
+    sphi_kv_c6(q, dim, w, g);
+    break;
+  case SPH_KERNEL_QUINTIC_SPLINE:
+    sphi_kv_quintic(q, w, g);
+    break;
+  case SPH_KERNEL_GAUSSIAN:
+    sphi_kv_gaussian(q, 3.0, w, g);
+    break;
+  default:
+    sphi_kv_other(kernel, q, w, g);
+    break;
   }
 }
 

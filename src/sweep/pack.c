@@ -14,9 +14,12 @@ static double pressure_of(const sphi_run *run, int64_t i) {
   double p = value(a->p, a->p0, i), rho = rho_of(a, i);
   double vol = value(a->m, a->m0, i) / rho;
   switch (run->spec.pressure) {
-    case SPH_PRESSURE_MASS: return p / (rho * rho);
-    case SPH_PRESSURE_NUMBER: return p * vol * vol;
-    default: return p;
+  case SPH_PRESSURE_MASS:
+    return p / (rho * rho);
+  case SPH_PRESSURE_NUMBER:
+    return p * vol * vol;
+  default:
+    return p;
   }
 }
 

@@ -23,8 +23,8 @@
 #include "simd_portable.h"
 #endif
 
-/* exp(x) for -700 < x <= 0, relative error below 4e-16: Cody-Waite reduction and the Taylor polynomial
- * of degree 13 on |x| <= ln(2)/2. */
+/* exp(x) for -700 < x <= 0, relative error below 4e-16: Cody-Waite reduction and the Taylor
+ * polynomial of degree 13 on |x| <= ln(2)/2. */
 SPHI_INLINE vd v_exp(vd x) {
   vd k = v_round(x * v_set(1.4426950408889634));
   vd r = v_fnma(k, v_set(6.93147180369123816490e-01), x);

@@ -45,7 +45,6 @@ SPHI_INLINE vd v_keep(vm m, vd a) { return _mm512_maskz_mov_pd(m, a); }
 SPHI_INLINE vd v_select(vm m, vd a, vd b) { return _mm512_mask_mov_pd(b, m, a); }
 SPHI_INLINE int v_any(vm m) { return m != 0; }
 
-
 SPHI_INLINE double v_sum(vd a) {
   __m256d s = _mm256_add_pd(_mm512_castpd512_pd256(a), _mm512_extractf64x4_pd(a, 1));
   __m128d t = _mm_add_pd(_mm256_castpd256_pd128(s), _mm256_extractf128_pd(s, 1));

@@ -265,8 +265,8 @@ static void test_remove_all(void **state) {
 static void test_builtin_fields(void **state) {
   (void)state;
   sph_context *ctx = make_context();
-  const char *names[] = {"x", "v", "m", "rho", "h", "p", "c", "e", "sigma", "x0", "a", "spacing",
-                         "F", "PK"};
+  const char *names[] = {"x", "v",     "m",  "rho", "h",       "p", "c",
+                         "e", "sigma", "x0", "a",   "spacing", "F", "PK"};
   for (int32_t dim = 1; dim <= 3; dim++) {
     sph_particles *set = make_set(ctx, dim, 5);
     assert_int_equal(sph_particles_dim(set), dim);
