@@ -36,26 +36,26 @@ extern "C" {
 /* 0 is success, positive a request, negative a failure. Values never move. */
 typedef int32_t sph_status;
 
-#define SPH_STATUS_LIST(X)                                                                  \
-  X(SPH_OK, 0, "success")                                                                   \
-  X(SPH_RETRY, 1, "a smaller step is asked for")                                            \
-  X(SPH_ERR_ARG, -1, "invalid argument")                                                    \
-  X(SPH_ERR_NOMEM, -2, "out of memory")                                                     \
-  X(SPH_ERR_STALE, -3, "the neighbour list is older than the particles")                    \
-  X(SPH_ERR_VERSION, -4, "the options are newer than this library")                         \
-  X(SPH_ERR_CALLBACK, -5, "a host callback failed")                                         \
-  X(SPH_ERR_STATE, -6, "the call does not fit the state of the object")                     \
-  X(SPH_ERR_NUMERIC, -7, "a number is not finite or a system is singular")                  \
-  X(SPH_ERR_UNSUPPORTED, -8, "this combination is not supported")                           \
-  X(SPH_ERR_LIMIT, -9, "a capacity or a counter would overflow")                            \
-  X(SPH_ERR_IO, -10, "reading or writing failed")                                           \
+#define SPH_STATUS_LIST(X)                                                 \
+  X(SPH_OK, 0, "success")                                                  \
+  X(SPH_RETRY, 1, "a smaller step is asked for")                           \
+  X(SPH_ERR_ARG, -1, "invalid argument")                                   \
+  X(SPH_ERR_NOMEM, -2, "out of memory")                                    \
+  X(SPH_ERR_STALE, -3, "the neighbour list is older than the particles")   \
+  X(SPH_ERR_VERSION, -4, "the options are newer than this library")        \
+  X(SPH_ERR_CALLBACK, -5, "a host callback failed")                        \
+  X(SPH_ERR_STATE, -6, "the call does not fit the state of the object")    \
+  X(SPH_ERR_NUMERIC, -7, "a number is not finite or a system is singular") \
+  X(SPH_ERR_UNSUPPORTED, -8, "this combination is not supported")          \
+  X(SPH_ERR_LIMIT, -9, "a capacity or a counter would overflow")           \
+  X(SPH_ERR_IO, -10, "reading or writing failed")                          \
   X(SPH_ERR_HANDLE, -11, "the handle is of another kind or was destroyed")
 
 enum {
 #define SPH_STATUS_ENUM(name, value, text) name = value,
   SPH_STATUS_LIST(SPH_STATUS_ENUM)
 #undef SPH_STATUS_ENUM
-  SPH_STATUS_RESERVED = -1000 /* keeps the list's last comma legal in C and C++ */
+      SPH_STATUS_RESERVED = -1000 /* keeps the list's last comma legal in C and C++ */
 };
 
 /* Static text of a status; never NULL, "unknown status" for other values. Since 0.1. */
@@ -81,6 +81,7 @@ typedef struct sph_neighbors sph_neighbors;
 typedef struct sph_material sph_material;
 typedef struct sph_rhs sph_rhs;
 typedef struct sph_integrator sph_integrator;
+typedef struct sph_total_lagrangian sph_total_lagrangian;
 
 #ifdef __cplusplus
 }

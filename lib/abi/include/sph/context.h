@@ -32,34 +32,35 @@ typedef void (*sph_parallel_for_fn)(void *user, int64_t count, int64_t grain, sp
 enum { SPH_LOG_ERROR = 1, SPH_LOG_WARNING = 2, SPH_LOG_INFO = 3, SPH_LOG_DEBUG = 4 };
 typedef void (*sph_log_fn)(void *user, int32_t level, const char *text);
 
-/* Progress of a long call, 0 <= fraction <= 1, on the calling thread. A nonzero return asks the
- * call to stop; it then answers SPH_ERR_CALLBACK. */
+/* Progress of a long call (neighbour builds, files being written), 0 <= fraction <= 1, on the
+ * calling thread. It must not change or destroy what the call works on. A nonzero return asks the
+ * call to stop; it then answers SPH_ERR_CALLBACK. A ready one for terminals is in io.h. */
 typedef int32_t (*sph_progress_fn)(void *user, double fraction, const char *what);
 
 /* Instruction sets of the pair loop. AUTO takes the best that this machine runs. */
 enum { SPH_ISA_AUTO = 0, SPH_ISA_PORTABLE = 1, SPH_ISA_AVX2 = 2, SPH_ISA_AVX512 = 3 };
 
 typedef struct sph_context_options {
-  size_t size;                      /* set by sph_context_options_init() */
-  sph_alloc_fn alloc;               /* NULL: aligned_alloc of libc */
-  sph_free_fn free;                 /* NULL: free of libc; alloc and free come together */
+  size_t size;        /* set by sph_context_options_init() */
+  sph_alloc_fn alloc; /* NULL: aligned_alloc of libc */
+  sph_free_fn free;   /* NULL: free of libc; alloc and free come together */
   void *alloc_user;
-  int32_t threads;                  /* own pool: 0 = every online processor, 1 = serial; default 1 */
+  int32_t threads;                  /* own pool: 0 = all online processors, 1 = serial; default 1 */
   int32_t workers;                  /* with parallel_for: its largest worker number plus one */
   sph_parallel_for_fn parallel_for; /* NULL: own pool */
   void *parallel_user;
-  int32_t isa;                      /* SPH_ISA_*; default SPH_ISA_AUTO */
-  int32_t log_level;                /* most verbose level passed on; default SPH_LOG_WARNING */
-  sph_log_fn log;                   /* NULL: silent */
+  int32_t isa;       /* SPH_ISA_*; default SPH_ISA_AUTO */
+  int32_t log_level; /* most verbose level passed on; default SPH_LOG_WARNING */
+  sph_log_fn log;    /* NULL: silent */
   void *log_user;
-  sph_progress_fn progress;         /* NULL: none */
+  sph_progress_fn progress; /* NULL: none */
   void *progress_user;
 } sph_context_options;
 
 /* Fill *options with the defaults. Called through the macro, which passes the size that the
  * caller was compiled with; bytes beyond it are not written. Since 0.1. */
 SPH_API void sph_context_options_init_sized(sph_context_options *options, size_t size);
-#define sph_context_options_init(options)                                                    \
+#define sph_context_options_init(options) \
   sph_context_options_init_sized((options), sizeof(sph_context_options))
 
 /* Create a context. options may be NULL for the defaults: libc memory, one thread, the best
@@ -97,7 +98,9 @@ SPH_API sph_status sph_context_memory(const sph_context *ctx, int64_t *bytes, in
                                       int64_t *allocations);
 
 /* Run a host loop on the context's threads: body(job, begin, end, worker) over [0, count) in
- * ranges of about `grain` (at least 1). SPH_ERR_ARG: body NULL, count < 0, grain < 1. Since 0.1. */
+ * ranges of about `grain` (at least 1); returns when all are done. Allocates nothing.
+ * SPH_ERR_ARG: body NULL, count < 0, grain < 1. SPH_ERR_STATE: called from the body of another loop
+ * of the context (nested), without a sentence; body does not run then. Since 0.1. */
 SPH_API sph_status sph_parallel_for(sph_context *ctx, int64_t count, int64_t grain,
                                     sph_loop_fn body, void *job);
 

@@ -138,7 +138,8 @@ enum {
  * Ghosts may be added and removed in here. The real particles must stay: another count or order
  * ends the step with SPH_ERR_STATE. Bound values should not be changed: to hold a value give it the
  * rate 0 (what is overwritten here lasts for this stage, and with RKC also takes part in the next).
- * Do not step, save or restore the same integrator in here.
+ * Binding, stepping, saving and restoring the same integrator in here answer SPH_ERR_STATE; do not
+ * destroy it, nor what the step uses.
  *
  * 0: fine; positive: the step is abandoned with SPH_RETRY; negative: SPH_ERR_CALLBACK (or, for a
  * status of the library, that status). */
@@ -164,22 +165,21 @@ typedef struct sph_integrator_options {
   sph_radius_fn radius; /* RADIUS */
   void *radius_user;
   double power_safety; /* POWER: factor >= 1; default 1.1 */
-  int32_t
-      power_iterations;   /* at most so many evaluations for one estimate, 1..1000; default 50.
-                           * It ends when the radius changes by less than 0.5 %, usually after 5
-                           * to 15; later estimates start from the last direction and take 3 to 6 */
+  /* At most so many evaluations for one estimate, 1..1000; default 50. It ends when the radius
+   * changes by less than 0.5 %, usually after 5 to 15; later estimates start from the last
+   * direction and take 3 to 6. */
+  int32_t power_iterations;
   int32_t power_interval; /* POWER: re-estimate after this many steps; default 25. At first after
                            * 1, 2, 4 .. steps, and in the step after one that ended in
                            * SPH_ERR_NUMERIC */
   double rtol, atol;      /* of the error estimate, >= 0, not both 0; defaults 1e-3, 1e-6 */
   int32_t check_finite;   /* nonzero: a step whose result is not finite fails (SPH_ERR_NUMERIC);
                              default 1 */
-  int32_t
-      stability_check_interval; /* look at the dominant eigenvalue in the first step, 10 steps
-                                 * later, and again after each so many, with at most 20
-                                 * evaluations each time; 0: never; -1 (default): 100 for RKC, never
-                                 * for the others. Leapfrog never looks; the rule POWER judges each
-                                 * of its steps by its own estimate, free of charge */
+  /* Look at the dominant eigenvalue in the first step, 10 steps later, and again after each so
+   * many, with at most 20 evaluations each time; 0: never; -1 (default): 100 for RKC, never for the
+   * others. Leapfrog never looks; the rule POWER judges each of its steps by its own estimate, free
+   * of charge. */
+  int32_t stability_check_interval;
 } sph_integrator_options;
 /* Fill *options with the defaults. Since 0.1. */
 SPH_API void sph_integrator_options_init_sized(sph_integrator_options *options, size_t size);
@@ -197,18 +197,19 @@ SPH_API void sph_integrator_destroy(sph_integrator *it);
 
 /* Bind a field of the set that later steps are given; its real particles are advanced. Whether the
  * set has it shows in the step; a built-in field that does not exist yet is then created.
- * SPH_ERR_ARG: bound twice, negative; SPH_ERR_LIMIT: more than 32 items. Binding drops what was
- * saved. Since 0.1. */
+ * SPH_ERR_ARG: bound twice, negative; SPH_ERR_LIMIT: more than 32 items; SPH_ERR_STATE: within a
+ * step. Binding drops what was saved. Since 0.1. */
 SPH_API sph_status sph_integrator_bind_field(sph_integrator *it, int32_t field);
 /* Bind a plain array of n doubles (n >= 0), the host's, which must stay where it is; its entry in
  * the rates has field -1 - k for the k-th item bound (from 0). SPH_ERR_ARG: overlaps an array bound
- * before. SPH_ERR_UNSUPPORTED: leapfrog, which does not take arrays. SPH_ERR_LIMIT. Since 0.1. */
+ * before. SPH_ERR_UNSUPPORTED: leapfrog, which does not take arrays. SPH_ERR_LIMIT, SPH_ERR_STATE.
+ * Since 0.1. */
 SPH_API sph_status sph_integrator_bind_array(sph_integrator *it, double *values, int64_t n);
 
-/* The right-hand side: a callback, or a composed one with its list (rhs and list stay the host's
- * and must outlive the integrator's use). The last one set counts. A composed one gives no rates
- * for plain arrays: such a step answers SPH_ERR_STATE. Since 0.1. */
+/* The right-hand side as a callback. The last one set, here or below, counts. Since 0.1. */
 SPH_API sph_status sph_integrator_set_function(sph_integrator *it, sph_rhs_fn fn, void *user);
+/* A composed right-hand side with its list; both stay the host's and must outlive the integrator's
+ * use. It gives no rates for plain arrays: such a step answers SPH_ERR_STATE. Since 0.1. */
 SPH_API sph_status sph_integrator_set_rhs(sph_integrator *it, sph_rhs *rhs, sph_neighbors *list);
 
 typedef struct sph_step_info {
@@ -223,10 +224,10 @@ typedef struct sph_step_info {
                         * orders; NaN without an estimate */
   double eigen_re;     /* dominant eigenvalue as last estimated, 1 / time; NaN: never */
   double eigen_im;     /* >= 0, stands for the pair */
-  double
-      growth; /* amplification of that mode by the step in which it was last judged; NaN: never */
-  int32_t want_error; /* in: nonzero asks RKC for its error estimate, one more evaluation;
-                       * default 0. Tableaux with an embedded method give theirs anyway */
+  double growth;       /* amplification of that mode by the step in which it was last judged; NaN:
+                        * never */
+  int32_t want_error;  /* in: nonzero asks RKC for its error estimate, one more evaluation;
+                        * default 0. Tableaux with an embedded method give theirs anyway */
 } sph_step_info;
 /* Fill *info with the defaults: NaN and 0. Since 0.1. */
 SPH_API void sph_step_info_init_sized(sph_step_info *info, size_t size);
@@ -263,6 +264,7 @@ SPH_API sph_status sph_integrator_step(sph_integrator *it, sph_particles *set, d
  * nothing bound, nothing saved, or sizes changed since. SPH_ERR_NOMEM: the state saved before is
  * intact. Since 0.1. */
 SPH_API sph_status sph_integrator_save(sph_integrator *it, sph_particles *set);
+/* Put back what was saved; errors as above. Since 0.1. */
 SPH_API sph_status sph_integrator_restore(sph_integrator *it, sph_particles *set);
 
 /* ---- Pure functions ---------------------------------------------------------------------- */
@@ -272,8 +274,8 @@ SPH_API sph_status sph_integrator_restore(sph_integrator *it, sph_particles *set
 SPH_API sph_status sph_rkc_coefficients(int32_t s, int32_t b1, double *mu, double *nu, double *mu_t,
                                         double *gamma_t, double *c);
 
-/* Real stability interval beta(s) = (w0 + 1) / w1, about 0.653 (s^2 -
- * 1): 1.963, 5.230, 9.804, 15.685, 64.69 for s = 2, 3, 4, 5, 10 (|P| = 1 is first crossed a little
+/* Real stability interval beta(s) = (w0 + 1) / w1, about 0.653 (s^2 - 1), which is
+ * 1.963, 5.230, 9.804, 15.685, 64.69 for s = 2, 3, 4, 5, 10 (|P| = 1 is first crossed a little
  * beyond: 2.000, 6.180, 9.851, 16.60, 64.74). NaN for s outside 2..1000. O(s). Since 0.1. */
 SPH_API double sph_rkc_beta(int32_t s);
 
@@ -282,11 +284,11 @@ SPH_API double sph_rkc_beta(int32_t s);
 SPH_API double sph_rkc_amplification(int32_t s, double re, double im);
 
 /* Stages by the published formulas; the bracket in them is the integer part. dt, wave_speed, radius
- * finite and
- * >= 0, spacing finite and > 0; -1 otherwise, or when the count exceeds 2^31 - 1. Never 1. By CFL
- * number: s = 2 below 0.393, 3 below 1.048, 4 below 1.965, 5 below 3.144, 6 below 4.585. Since 0.1.
- */
+ * finite and >= 0, spacing finite and > 0; -1 otherwise, or when the count exceeds 2^31 - 1. Never
+ * 1. By CFL number: s = 2 below 0.393, 3 below 1.048, 4 below 1.965, 5 below 3.144, 6 below 4.585.
+ * Since 0.1. */
 SPH_API int32_t sph_rkc_stages_cfl(double dt, double wave_speed, double spacing);
+/* By spectral radius: s = 1 + floor(sqrt(1 + dt radius / 0.653)), else as above. Since 0.1. */
 SPH_API int32_t sph_rkc_stages_radius(double dt, double radius);
 
 /* Largest stable step: cfl * min over the real particles of h_i / (c_i + |v_i|). Fields H, C, V as

@@ -155,12 +155,14 @@ SPH_API double sph_kernel_deviation(const sph_kernel *kernel);
  * NULL. Since 0.1. */
 SPH_API double sph_kernel_alpha(const sph_kernel *kernel);
 
-/* W, dW/dr, d2W/dr2 and dW/dh = -(d W + r dW/dr) / h at one distance. NaN for NULL, r < 0, a NaN,
- * or h not positive and finite; 0 at and beyond the support. At r = 0, dW/dr is 0 for every
- * kernel, also the one with a cusp. Since 0.1. */
+/* W at one distance, 1 / length^dim. This and the next three: NaN for NULL, r < 0, a NaN, or h not
+ * positive and finite; 0 at and beyond the support. Since 0.1. */
 SPH_API double sph_kernel_w(const sph_kernel *kernel, double r, double h);
+/* dW/dr. At r = 0 it is 0 for every kernel, also the one with a cusp. Since 0.1. */
 SPH_API double sph_kernel_dwdr(const sph_kernel *kernel, double r, double h);
+/* d2W/dr2. Since 0.1. */
 SPH_API double sph_kernel_d2wdr2(const sph_kernel *kernel, double r, double h);
+/* dW/dh = -(d W + r dW/dr) / h. Since 0.1. */
 SPH_API double sph_kernel_dwdh(const sph_kernel *kernel, double r, double h);
 
 /* The same for n distances with one h; any of w, dwdr, d2wdr2, dwdh (n doubles each) may be NULL.

@@ -89,9 +89,9 @@ SPH_API sph_status sph_neighbors_update_arrays(sph_neighbors *list, int32_t dim,
                                                const double *x, const double *h, double h0,
                                                int32_t *rebuilt);
 
-/* Particles, and pairs counted once per direction (skin included), of the last build. -1 for NULL.
- * Since 0.1. */
+/* Particles of the last build; -1 for NULL. Since 0.1. */
 SPH_API int64_t sph_neighbors_count(const sph_neighbors *list);
+/* Pairs of the last build, once per direction, skin included; -1 for NULL. Since 0.1. */
 SPH_API int64_t sph_neighbors_pairs(const sph_neighbors *list);
 /* Number of builds so far; -1 for NULL. Since 0.1. */
 SPH_API int64_t sph_neighbors_builds(const sph_neighbors *list);

@@ -26,18 +26,20 @@ extern "C" {
 /* Built-in fields. X always exists; the others come to be, zero-filled, at first request. Ids
  * from 64 on are the host's, handed out by sph_particles_add_field(). */
 enum {
-  SPH_FIELD_X = 0,       /* position, dim */
-  SPH_FIELD_V = 1,       /* velocity, dim */
-  SPH_FIELD_M = 2,       /* mass, 1 */
-  SPH_FIELD_RHO = 3,     /* density, 1 */
-  SPH_FIELD_H = 4,       /* smoothing length, 1 */
-  SPH_FIELD_P = 5,       /* pressure, 1 */
-  SPH_FIELD_C = 6,       /* sound speed, 1 */
-  SPH_FIELD_E = 7,       /* specific internal energy, 1 */
-  SPH_FIELD_SIGMA = 8,   /* Cauchy stress, packed symmetric */
-  SPH_FIELD_X0 = 9,      /* reference position, dim */
-  SPH_FIELD_A = 10,      /* acceleration, dim */
-  SPH_FIELD_SPACING = 11 /* initial particle spacing, 1 */
+  SPH_FIELD_X = 0,        /* position, dim */
+  SPH_FIELD_V = 1,        /* velocity, dim */
+  SPH_FIELD_M = 2,        /* mass, 1 */
+  SPH_FIELD_RHO = 3,      /* density, 1 */
+  SPH_FIELD_H = 4,        /* smoothing length, 1 */
+  SPH_FIELD_P = 5,        /* pressure, 1 */
+  SPH_FIELD_C = 6,        /* sound speed, 1 */
+  SPH_FIELD_E = 7,        /* specific internal energy, 1 */
+  SPH_FIELD_SIGMA = 8,    /* Cauchy stress, packed symmetric */
+  SPH_FIELD_X0 = 9,       /* reference position, dim */
+  SPH_FIELD_A = 10,       /* acceleration, dim */
+  SPH_FIELD_SPACING = 11, /* initial particle spacing, 1 */
+  SPH_FIELD_F = 12,       /* deformation gradient dx/dX, dim * dim, row-major */
+  SPH_FIELD_PK = 13       /* first Piola-Kirchhoff stress, dim * dim, row-major */
 };
 
 enum { SPH_ROLE_REAL = 0, SPH_ROLE_GHOST = 1, SPH_ROLE_WALL = 2, SPH_ROLE_BODY = 3 };
@@ -115,7 +117,7 @@ SPH_API sph_status sph_particles_add_field(sph_particles *set, const char *name,
                                            int32_t *field);
 
 /* Id of a field by name (built-in ones are "x", "v", "m", "rho", "h", "p", "c", "e", "sigma", "x0",
- * "a", "spacing"); -1 when there is none. Since 0.1. */
+ * "a", "spacing", "F", "PK"); -1 when there is none. Since 0.1. */
 SPH_API int32_t sph_particles_find_field(const sph_particles *set, const char *name);
 
 /* Components of a field; 0 when unknown. Since 0.1. */
@@ -135,7 +137,8 @@ SPH_API const double *sph_particles_field_const(const sph_particles *set, int32_
  * array is taken back by lending NULL, upon which the field holds a copy of its own. Values the
  * field had before are dropped. The set cannot grow beyond `capacity` meanwhile. Lending NULL to
  * a field that has its own array does nothing; capacity is not read then.
- * SPH_ERR_ARG: unknown field, capacity below the present count, the set's own array.
+ * SPH_ERR_ARG: unknown field, capacity below the present count, an array that overlaps another of
+ * the set, its own or lent.
  * SPH_ERR_NOMEM (taking back; the array is still lent then). Since 0.1. */
 SPH_API sph_status sph_particles_lend(sph_particles *set, int32_t field, double *array,
                                       int64_t capacity);

@@ -1,0 +1,127 @@
+/* A ready scheme: total-Lagrangian elasticity of bodies that deform a lot and do not break.
+ *
+ *   F_i = sum V_j (x_j - x_i) (x) B_i^-1 g_ij,   P_i = d psi / d F (F_i),
+ *   dv_i/dt = (1/rho_i) sum V_j (P_i B_i^-1 + P_j B_j^-1) g_ij + hourglass control + viscosity + g,
+ *   dx_i/dt = v_i,
+ * all kernels in the reference configuration, so that no pair is ever lost or found, and there is
+ * no tensile instability. The default forms derive from an energy: momentum is kept to rounding,
+ * angular momentum and energy as well as the integrator keeps them. Formulas, forms and sources
+ * stand at the operators (operators.h) and terms (rhs.h).
+ *
+ * The scheme is made of public pieces only, one file, to be read and copied: a kernel, a list, a
+ * right-hand side, an integrator. Two of them are handed out, for hooks (clamped and driven
+ * particles, loads), further terms, more materials:
+ *
+ *   sph_total_lagrangian_create(ctx, &options, rubber, &tl);
+ *   (fill X, M, RHO of a set)
+ *   sph_total_lagrangian_start(tl, set);
+ *   sph_rhs_set_finish(sph_total_lagrangian_rhs(tl), clamp, NULL);
+ *   sph_total_lagrangian_time_step(tl, set, &dt);
+ *   sph_total_lagrangian_step(tl, set, t, dt);
+ *
+ * Two bodies that meet need a force between them in the current configuration: see
+ * examples/rubber_rings.c. */
+#ifndef SPH_TOTAL_LAGRANGIAN_H
+#define SPH_TOTAL_LAGRANGIAN_H
+
+#include <sph/kernel.h>
+#include <sph/rhs.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct sph_total_lagrangian_options {
+  size_t size;    /* set by sph_total_lagrangian_options_init() */
+  int32_t dim;    /* 1, 2 or 3; must be given */
+  int32_t kernel; /* SPH_KERNEL_*; default WENDLAND_C2 */
+  /* h / spacing, > 0; default 1. On regular lattices 0.8 is more accurate: a layer as thick as the
+   * support is too soft at surfaces. Larger ratios suit disorder. */
+  double h_ratio;
+  int32_t form;           /* SPH_PIOLA_*; default CONSERVATIVE. SUMMED is corrected */
+  int32_t hourglass_form; /* SPH_HOURGLASS_*; default VARIATIONAL */
+  double hourglass;       /* its alpha, >= 0; 0: no control; default 0.1 */
+  double alpha, beta;     /* Monaghan's viscosity in the current geometry, >= 0; default 0 */
+  double gravity[3];      /* force per mass; default 0 */
+  double cfl;             /* of sph_total_lagrangian_time_step(), > 0; default 0.5 */
+  /* SPH_INTEGRATOR_*; default LEAPFROG, which is the scheme's own here: it keeps the last
+   * acceleration, so that a step takes one evaluation. BUTCHER and RKC, which need options of their
+   * own, are for hosts that step the right-hand side themselves. */
+  int32_t integrator;
+} sph_total_lagrangian_options;
+
+/* Fill *options with the defaults. Since 0.1. */
+SPH_API void sph_total_lagrangian_options_init_sized(sph_total_lagrangian_options *options,
+                                                     size_t size);
+#define sph_total_lagrangian_options_init(o) \
+  sph_total_lagrangian_options_init_sized((o), sizeof(sph_total_lagrangian_options))
+
+/* Create. `material` is that of phase 0, retained; it must have a first Piola-Kirchhoff stress and
+ * a sound speed. Other phases: sph_rhs_set_material() on the right-hand side. *out is NULL on
+ * failure. SPH_ERR_ARG: options out of range or not finite, the material NULL. SPH_ERR_UNSUPPORTED:
+ * an integrator the scheme does not run. SPH_ERR_VERSION, SPH_ERR_NOMEM. Since 0.1. */
+SPH_API sph_status sph_total_lagrangian_create(sph_context *ctx,
+                                               const sph_total_lagrangian_options *options,
+                                               sph_material *material, sph_total_lagrangian **out);
+
+/* Destroy. NULL is allowed. Since 0.1. */
+SPH_API void sph_total_lagrangian_destroy(sph_total_lagrangian *tl);
+
+/* The right-hand side and the list, owned by the scheme; NULL for NULL. After changing terms, hooks
+ * or materials between steps call sph_particles_touch(set, SPH_FIELD_X): the kept acceleration is
+ * then computed anew. Since 0.1. */
+SPH_API sph_rhs *sph_total_lagrangian_rhs(sph_total_lagrangian *tl);
+/* See above. Since 0.1. */
+SPH_API sph_neighbors *sph_total_lagrangian_list(sph_total_lagrangian *tl);
+
+/* Take the present state of a set as the reference configuration. Read: X, M and RHO (both
+ * positive, of all particles). Written: X0 = X; H = h_ratio times the field SPACING where the set
+ * has it and it is positive, else times (M / RHO)^(1/dim); C, the sound speed of the material of
+ * phase 0, where the set has no C yet (a host with several materials fills C itself, for hourglass
+ * control and viscosity). V comes to be, zero, where it is missing. The list is built. Keep X0, H,
+ * M, RHO and C as they are from here on, or start again.
+ *
+ * SPH_ERR_ARG: a dimension that does not fit, M or RHO missing or not positive and finite (the
+ * particle is named). What sph_neighbors_build_arrays() and the material answer. Fields written
+ * before the failure stay written. O(n + pairs). Since 0.1. */
+SPH_API sph_status sph_total_lagrangian_start(sph_total_lagrangian *tl, sph_particles *set);
+
+/* cfl * min dp_i / c_i over the real particles, dp = H / h_ratio, c the field C: sound speeds at
+ * rest. Leapfrog is stable up to about cfl = 1 for the default kernel, h_ratio 0.8 to 1.2 and
+ * hourglass control 0.1; where stretches exceed some tens of per cent, or hourglass control 0.5,
+ * take less. SPH_ERR_STATE: not started. SPH_ERR_NUMERIC: an empty set, or all speeds 0. O(n).
+ * Since 0.1. */
+SPH_API sph_status sph_total_lagrangian_time_step(sph_total_lagrangian *tl,
+                                                  const sph_particles *set, double *dt);
+
+/* Advance X and V of the real particles from t to t + dt. Leapfrog: v_h = v + dt/2 a, x += dt v_h,
+ * v = v_h + dt/2 a(x, v_h); the acceleration at the end serves the next step where t, X and V are
+ * as this one left them (sph_particles_touch() when the host writes X or V). Reversible, and
+ * without viscosity symplectic.
+ *
+ * SPH_ERR_ARG: t not finite, dt 0 or not finite. SPH_ERR_STATE: not started. What
+ * sph_rhs_evaluate() and sph_integrator_step() answer; SPH_ERR_NUMERIC also when the result is not
+ * finite. X and V are as before then, to the bit. A steady step allocates nothing. Since 0.1. */
+SPH_API sph_status sph_total_lagrangian_step(sph_total_lagrangian *tl, sph_particles *set, double t,
+                                             double dt);
+
+/* Energies of the real particles, each a sum over them in order; add the potential of what the host
+ * applies. */
+typedef struct sph_total_lagrangian_energies {
+  size_t size;      /* set by the caller, sizeof the struct */
+  double kinetic;   /* sum m v^2 / 2 */
+  double strain;    /* sum V psi(F) */
+  double hourglass; /* of the springs; for the form CENTRAL they are no potential */
+  double gravity;   /* -sum m g.x */
+} sph_total_lagrangian_energies;
+
+/* Energies at (t, set), evaluating where the kept acceleration does not hold. Three sweeps more
+ * with hourglass control. SPH_ERR_ARG: size too small. SPH_ERR_STATE: not started. Otherwise as for
+ * the step. *energies is untouched then. Since 0.1. */
+SPH_API sph_status sph_total_lagrangian_energy(sph_total_lagrangian *tl, sph_particles *set,
+                                               double t, sph_total_lagrangian_energies *energies);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
