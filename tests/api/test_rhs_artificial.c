@@ -301,12 +301,33 @@ static void test_compressed_body(void **state) {
   sph_context_destroy(ctx);
 }
 
+/* The bits of a particle do not depend on those beside it, or they would depend on how the loop is
+ * cut for threads. Diagonal stresses need no turn, general ones several. */
+static void test_alone(void **state) {
+  enum { MANY = 64 };
+  (void)state;
+  for (int32_t dim = 1; dim <= 3; dim++) {
+    double sigma[MANY * 6], together[MANY * 6], alone[6], rho[MANY];
+    int c = sph_sym_components(dim);
+    for (int i = 0; i < MANY; i++) {
+      rho[i] = rh_random(0.5, 2.0);
+      for (int k = 0; k < c; k++)
+        sigma[i * c + k] = i % 3 == 0 && k >= dim ? 0.0 : rh_random(-1.0, 1.0);
+    }
+    check_ok(sph_artificial_stress(dim, MANY, sigma, rho, 0.0, 0.3, together));
+    for (int i = 0; i < MANY; i++) {
+      check_ok(sph_artificial_stress(dim, 1, sigma + i * c, rho + i, 0.0, 0.3, alone));
+      assert_memory_equal(alone, together + i * c, (size_t)c * sizeof *alone);
+    }
+  }
+}
+
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_one_dimension),   cmocka_unit_test(test_angle_form),
     cmocka_unit_test(test_matrix_sign),     cmocka_unit_test(test_plane_in_space),
     cmocka_unit_test(test_rotation),        cmocka_unit_test(test_repeated),
     cmocka_unit_test(test_definite),        cmocka_unit_test(test_arrays),
     cmocka_unit_test(test_refusals),        cmocka_unit_test(test_power_and_spacing),
-    cmocka_unit_test(test_compressed_body),
+    cmocka_unit_test(test_compressed_body), cmocka_unit_test(test_alone),
 };
 SPH_TEST_MAIN(tests)
