@@ -11,7 +11,7 @@
  * forces on the velocities, so that small vibrations cannot grow, and a boundary without forces is
  * free of traction by itself. For accuracy volumes must then be those of the clipped cells. (The
  * difference form with held stresses, which reproduces the one-dimensional tables of He, is
- * unstable here, on every layout and at any time step.) */
+ * grew at every time step tried on the three layouts with these volumes; why is not known.) */
 #ifndef EXAMPLES_PLATE_H
 #define EXAMPLES_PLATE_H
 

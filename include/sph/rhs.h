@@ -185,7 +185,7 @@ SPH_API sph_status sph_rhs_set_finish(sph_rhs *rhs, sph_rhs_hook fn, void *user)
  * or SPH_TERM_FIRST_PIOLA for a phase whose material has no such law, a hook that changed the
  * number of real particles, a list never built and not to be updated. SPH_ERR_STALE: a list that is
  * not to be updated and holds no more. SPH_RETRY, SPH_ERR_CALLBACK: from hooks and materials.
- * SPH_ERR_NUMERIC: a deformation gradient outside the range of its material (the particle is
+ * SPH_ERR_NUMERIC: a particle outside the range of its material, such as det F <= 0 (it is
  * named). SPH_ERR_NOMEM; and what sph_neighbors_update() answers. After a failure the rate arrays
  * are undefined, the set is as the hooks left it.
  *

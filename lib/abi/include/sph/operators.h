@@ -206,6 +206,8 @@ SPH_API sph_status sph_viscosity_bulk(sph_neighbors *list, const sph_kernel *ker
  * atan2 (tan 2 theta, as printed, loses the branch). rho NULL: rho0 everywhere. sigma and R: n
  * packed symmetric tensors, which may be the same array. SPH_ERR_ARG: dim outside 1..3, n < 0,
  * NULL, rho0 not positive and finite, epsilon not finite. Takes no handle, so there is no sentence.
+ * No cure for every lattice: rows of a square one under equal tension in both directions slide past
+ * each other all the same, at h = 1.2 dp; those of a triangular one do not.
  * Pointwise, serial, O(n). Since 0.1. */
 SPH_API sph_status sph_artificial_stress(int32_t dim, int64_t n, const double *sigma,
                                          const double *rho, double rho0, double epsilon, double *R);
