@@ -282,9 +282,11 @@ static sphi_wave solid_fan(const sphi_side *side, double speed) {
   return expand(side, sphi_root(fan_miss, &t, side->slowest, log(side->given.rho)));
 }
 
-/* In strong tension the cubic may turn its other side, and an expansion is no fan any more. */
+/* In strong tension the cubic may turn its other side, and an expansion is no fan any more. Across
+ * a weak wave the speed changes by less than it is rounded by. */
 static int solid_convex(const sphi_side *side, const sphi_wave *behind) {
   enum { STEPS = 64 };
+  const double rounding = 64 * DBL_EPSILON * side->start.c;
   const isentrope s = {&side->given, side->slowest, 0};
   const double start = sqrt(log(side->given.rho) - side->slowest);
   const double end = sqrt(fmax(log(behind->rho) - side->slowest, 0.0));
@@ -296,7 +298,7 @@ static int solid_convex(const sphi_side *side, const sphi_wave *behind) {
     const double rho = density_at(&s, next);
     const coefficients c = coefficients_at(&side->given, rho);
     const double speed = gain + sqrt(fmax(sound2_of(&c, rho, e), 0.0));
-    if (speed > last) return 0;
+    if (speed > last + rounding) return 0;
     last = speed;
   }
   return 1;
