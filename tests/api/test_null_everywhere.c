@@ -270,6 +270,8 @@ static void close_all(void) {
   X(save, INTEGRATOR, sph_integrator_save(h, SET))                                         \
   X(save_set, PARTICLES, sph_integrator_save(g.it, h))                                     \
   X(restore, INTEGRATOR, sph_integrator_restore(h, SET))                                   \
+  X(set_filter, INTEGRATOR, sph_integrator_set_filter(h, NULL, NULL))                      \
+  X(restart, INTEGRATOR, sph_integrator_restart(h))                                        \
   X(cfl, PARTICLES, sph_cfl_step(h, 1.0, g.out))                                           \
   X(lattice, CONTEXT, sph_layout_lattice(h, &g.lattice, 0, NULL, &g.found))                \
   X(holes, CONTEXT, sph_layout_holes(h, &g.holes, 0, NULL, &g.found))                      \
