@@ -428,6 +428,13 @@ static sph_status ew_predicted(everywhere *w) {
   return s;
 }
 static sph_status ew_cfl(everywhere *w) { return sph_cfl_step(w->set, 0.5, w->out); }
+static sph_status ew_signal(everywhere *w) { return sph_signal_step(w->list, &w->a, 0.25, w->out); }
+static sph_status ew_density_step(everywhere *w) {
+  double dt = -7.0;
+  sph_status s = sph_density_step(w->ctx, w->rows, 0.1, w->a.rho, w->a.v, &dt);
+  w->out[0] = isinf(dt) ? 0.0 : dt; /* nobody sets a limit */
+  return s;
+}
 static sph_status ew_memory(everywhere *w) {
   return sph_context_memory(w->ctx, &w->number, NULL, NULL);
 }
@@ -537,6 +544,8 @@ static const ew_entry ew_entries[] = {
     {"sph_rhs_add sph_rhs_add_host sph_rhs_set_material sph_rhs_set_prepare sph_rhs_set_finish",
      ew_add_term, 0, 1},
     {"sph_rhs_evaluate", ew_evaluate, EW_OUTPUT, 1},
+    {"sph_signal_step", ew_signal, 0, 1},
+    {"sph_density_step", ew_density_step, 0, 0},
     {"sph_integrator_create", ew_integrator_create, 0, 1},
     {"sph_integrator_bind_field sph_integrator_bind_array sph_integrator_set_function "
      "sph_integrator_set_rhs",

@@ -36,6 +36,7 @@
 #ifndef SPH_INTEGRATOR_H
 #define SPH_INTEGRATOR_H
 
+#include <sph/operators.h>
 #include <sph/rhs.h>
 
 #ifdef __cplusplus
@@ -342,11 +343,34 @@ SPH_API int32_t sph_rkc_stages_cfl(double dt, double wave_speed, double spacing)
 /* By spectral radius: s = 1 + floor(sqrt(1 + dt radius / 0.653)), else as above. Since 0.1. */
 SPH_API int32_t sph_rkc_stages_radius(double dt, double radius);
 
+/* ---- Steps that a state allows ------------------------------------------------------------ */
+
 /* Largest stable step: cfl * min over the real particles of h_i / (c_i + |v_i|). Fields H, C, V as
  * far as they exist; particles with speed 0 do not count. SPH_ERR_ARG without H or with cfl not
  * positive and finite; SPH_ERR_NUMERIC: h not positive, a value not finite (the first such particle
- * is named), or no particle gives a finite step (all speeds 0, an empty set). O(n). Since 0.1. */
+ * is named), no particle gives a finite step (all speeds 0, an empty set), or the step is too small
+ * for a number (it is never 0). O(n). Since 0.1. */
 SPH_API sph_status sph_cfl_step(const sph_particles *set, double cfl, double *dt);
+
+/* The same by signals between neighbours, for shocks:
+ *   dt = courant min_i h_i / (c_i + max_j |v_ij . r_ij|),
+ * i over the rows, j over the neighbours within the list's cutoff, r_ij the unit vector. Zisis
+ * (section 4.3) has |v_i| in place of the maximum, which a uniform motion shortens, and prints
+ * min (v + c) / h, which is no time; he takes courant in 0.1 .. 0.3. Needs x, v, h and c (NULL: c0,
+ * which may be 0) of the operands. Errors as above, also SPH_ERR_STATE and SPH_ERR_STALE of the
+ * list; *dt is untouched then. SPH_ERR_NOMEM, SPH_ERR_VERSION. O(pairs), on the context's threads,
+ * same bits for any number; 8 bytes a row, given back. Since 0.1. */
+SPH_API sph_status sph_signal_step(sph_neighbors *list, const sph_operands *a, double courant,
+                                   double *dt);
+
+/* The step in which no density changes by more than the fraction `limit`: limit min_i rho_i /
+ * |drho_i|, infinity where nothing changes. rho, drho = d rho/dt: n, the host's. Zisis saw too
+ * low a density behind strong shocks where steps were long, and gives no rule; take limit = 0.1.
+ * SPH_ERR_ARG: n < 0, an array or dt NULL, limit not positive and finite. SPH_ERR_NUMERIC: rho not
+ * positive and finite, drho not finite (the first such particle is named), a step too small for a
+ * number. O(n), threads as above. Since 0.1. */
+SPH_API sph_status sph_density_step(sph_context *ctx, int64_t n, double limit, const double *rho,
+                                    const double *drho, double *dt);
 
 #ifdef __cplusplus
 }

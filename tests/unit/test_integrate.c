@@ -424,6 +424,16 @@ static void test_cfl_step(void **state) {
   h[500] = 0.0;
   check_status(sph_cfl_step(set, 0.5, &dt), SPH_ERR_NUMERIC);
   assert_non_null(strstr(sph_context_last_error(ctx), "particle 123"));
+  c[123] = 10.0;
+  h[500] = 1e-300; /* the step is no number any more: never 0 */
+  c[500] = 1e200;
+  check_status(sph_cfl_step(set, 0.5, &dt), SPH_ERR_NUMERIC);
+  assert_non_null(strstr(sph_context_last_error(ctx), "is no step"));
+  c[500] = 1.0;
+  check_ok(sph_cfl_step(set, 0.5, &dt));
+  assert_true(dt > 0.0 && dt < 1e-299);
+  h[500] = 0.1;
+  check_ok(sph_cfl_step(set, 0.5, &dt));
   check_status(sph_cfl_step(set, 0.0, &dt), SPH_ERR_ARG);
   check_status(sph_cfl_step(set, NAN, &dt), SPH_ERR_ARG);
   check_status(sph_cfl_step(set, 1.0, NULL), SPH_ERR_ARG);
