@@ -36,7 +36,15 @@ enum {
   /* c where SUMMED; V; form SPH_PIOLA_*: F from X and X0, P from the phase's material (or from
    * SIGMA, see below), then the divergence of P. */
   SPH_TERM_FIRST_PIOLA = 11,
-  SPH_TERM_HOURGLASS = 12 /* V; form SPH_HOURGLASS_*; alpha, and E_i = rho_i c_i^2 */
+  SPH_TERM_HOURGLASS = 12, /* V; form SPH_HOURGLASS_*; alpha, and E_i = rho_i c_i^2 */
+  /* Variable smoothing lengths (smoothing.h); one sweep for all of them, beside that of the terms
+   * above. The list's rule must be SPH_H_MAX or SPH_H_AVERAGE where h differs. */
+  SPH_TERM_SMOOTHED = 13, /* RHO, V, E, whichever are asked for: sph_smoothed_pressure(); form
+                           * SPH_SMOOTHING_*; the field OMEGA where the set has it, else 1 */
+  SPH_TERM_SMOOTHED_STRESS = 14, /* V, E: sph_smoothed_stress(), SIGMA being the deviator.
+                                  * SPH_TERM_STRESS_RATE then takes its velocity gradient, by h_i,
+                                  * unless it is corrected */
+  SPH_TERM_DISSIPATION = 15      /* RHO, V, E: sph_smoothed_dissipation(); dissipation */
 };
 
 /* Total-Lagrangian elasticity. With position_field X0 all pairs are those of X0: RHO, H, M (and the
@@ -86,6 +94,7 @@ typedef struct sph_term {
   double vector[3];     /* body force per mass; the first dim entries */
   int32_t power;        /* artificial stress: n, 1..16; default 4 */
   double spacing_ratio; /* artificial stress: dp / h, so that W(dp) follows each pair's h */
+  const struct sph_dissipation *dissipation; /* its options, copied; default NULL: its defaults */
 } sph_term;
 
 /* Fill *term with the defaults. Since 0.1. */
