@@ -319,6 +319,21 @@ SPH_API sph_status sph_integrator_save(sph_integrator *it, sph_particles *set);
 /* Put back what was saved; errors as above. Since 0.1. */
 SPH_API sph_status sph_integrator_restore(sph_integrator *it, sph_particles *set);
 
+/* The same in a buffer of the host's, for checkpoints that another process reads: what
+ * sph_integrator_save() keeps, bound values included. It is put back into an integrator with the
+ * same options and the same bindings, and a set with as many particles in the same order; the next
+ * steps then have the same bits. Numbers are written as this machine has them. *bytes receives the
+ * size. SPH_ERR_STATE: nothing bound; SPH_ERR_NOMEM. Since 0.1. */
+SPH_API sph_status sph_integrator_state_size(sph_integrator *it, sph_particles *set, size_t *bytes);
+/* Write it. SPH_ERR_ARG: buffer NULL, not aligned as doubles are, or shorter than the size; others
+ * as above. Since 0.1. */
+SPH_API sph_status sph_integrator_state_write(sph_integrator *it, sph_particles *set, void *buffer,
+                                              size_t bytes);
+/* Put it back. SPH_ERR_ARG also: not such a state, or of another method, bindings or number of
+ * particles; nothing has changed then. Since 0.1. */
+SPH_API sph_status sph_integrator_state_read(sph_integrator *it, sph_particles *set,
+                                             const void *buffer, size_t bytes);
+
 /* ---- Pure functions ---------------------------------------------------------------------- */
 
 /* Coefficients of RKC with s stages (2..1000). Arrays have s + 1 entries, index = stage, unused

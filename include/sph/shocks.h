@@ -30,11 +30,13 @@
  * of the time steps alone, about 1e-8 to 1e-5 at the default cfl. Angular momentum is kept as well
  * but by the deviator, whose forces are not central.
  *
- * Bad states. A density that comes out zero, negative or not finite, within a step, asks for a
- * smaller step; so does a state outside the range of its material. If 20 halvings do not help, run
- * ends with the sentence that names particle and values, and the state is that after the last good
- * step. Nothing is clipped, but omega by its floor (counted in the ledger), the mass flux by its
- * limit (smoothing.h) and what a material clips itself (eos.h). */
+ * Bad states. A density that comes out zero, negative or not finite within a step, or a state
+ * outside the range of its material, is SPH_ERR_NUMERIC with a sentence that names particle and
+ * values; the state is then as before the step. A smaller step may help: run tries up to 20
+ * halvings, and ends in the state after the last good step if none does. Nothing is clipped but
+ * omega by its floor (counted in the ledger), the mass flux by its limit (smoothing.h) and what a
+ * material clips itself (eos.h).
+ */
 #ifndef SPH_SHOCKS_H
 #define SPH_SHOCKS_H
 
@@ -149,9 +151,10 @@ SPH_API sph_status sph_shocks_update(sph_shocks *shocks);
  * positive step comes out. Since 0.1. */
 SPH_API sph_status sph_shocks_stable_dt(sph_shocks *shocks, double *dt);
 
-/* One step; then the return to the yield stress. info may be NULL. SPH_RETRY: a smaller step is
- * needed, as above under bad states. SPH_ERR_STATE: not started; and what sph_integrator_step()
- * answers; time, fields and ledger are as before then. Since 0.1. */
+/* One step; then the return to the yield stress. info may be NULL. SPH_ERR_NUMERIC: a bad state,
+ * see above; SPH_RETRY: a hook, ghosts or material asked for a smaller step; SPH_ERR_STATE: not
+ * started; and what sph_integrator_step() answers; time, fields and ledger are as before then.
+ * Since 0.1. */
 SPH_API sph_status sph_shocks_step(sph_shocks *shocks, double dt, sph_step_info *info);
 
 /* After each step of a run, with what the integrator told. 0: go on; positive: end here with
@@ -180,19 +183,23 @@ SPH_API sph_integrator *sph_shocks_integrator(sph_shocks *shocks);
 /* As above. Since 0.1. */
 SPH_API sph_kernel *sph_shocks_kernel(sph_shocks *shocks);
 
-/* Checkpoints. The state of the scheme beside the set, in a buffer of the host's: time, ledger and
- * what the integrator keeps of earlier steps. With the fields X, V, M, RHO, E, SIGMA, H (and
- * plastic_strain), roles and phases, which the host keeps itself, a run continues bit for bit, in
- * the same process or in another one: create with the same options and materials, fill the set in
- * the same order, and restore instead of starting. Numbers are written as this machine has them.
+/* Checkpoints: the state of a run in a buffer of the host's, after which it continues bit for bit,
+ * in the same process or in another one. It holds X, V, M, RHO, E, H, SIGMA and plastic strain of
+ * the real particles, time, ledger and what the integrator keeps of earlier steps. Roles, phases,
+ * ghosts, hooks and fields of the host's own are not in it: create with the same options and
+ * materials for a set with as many particles, roles and phases in the same order, and restore
+ * instead of starting. Numbers are written as this machine has them; a sum over all bytes guards
+ * them.
  *
- * *bytes receives the size. SPH_ERR_STATE: not started. Since 0.1. */
-SPH_API sph_status sph_shocks_state_size(const sph_shocks *shocks, size_t *bytes);
-/* Write it. SPH_ERR_ARG: `bytes` below the size. SPH_ERR_STATE: not started. Since 0.1. */
-SPH_API sph_status sph_shocks_save(const sph_shocks *shocks, void *buffer, size_t bytes);
-/* Take it up. SPH_ERR_ARG: not such a state, cut short, or of other options or another number of
- * particles; and what sph_shocks_start() answers. The scheme cannot step after a failure.
+ * *bytes receives the size. SPH_ERR_ARG: bytes NULL. SPH_ERR_STATE: not started; SPH_ERR_NOMEM.
  * Since 0.1. */
+SPH_API sph_status sph_shocks_state_size(sph_shocks *shocks, size_t *bytes);
+/* Write it. SPH_ERR_ARG: buffer NULL, not aligned as doubles are, or shorter than the size. Others
+ * as above. Since 0.1. */
+SPH_API sph_status sph_shocks_save(sph_shocks *shocks, void *buffer, size_t bytes);
+/* Take it up. SPH_ERR_ARG: buffer as above; not such a state, damaged, or of other options or
+ * another set: nothing has changed then but that the scheme must be started or restored again. What
+ * sph_shocks_start() answers. Since 0.1. */
 SPH_API sph_status sph_shocks_restore(sph_shocks *shocks, const void *buffer, size_t bytes);
 
 /* Balances. The sums of the present state run over the real particles, walls included. What is
