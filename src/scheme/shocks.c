@@ -49,8 +49,6 @@ static sph_status check_options(sph_context *ctx, const sph_shocks_options *o) {
   if (s) return s;
   if (o->density == SPH_SHOCKS_INTEGRAL && o->smoothing == SPH_SMOOTHING_VOLUME)
     return sphi_fail(ctx, SPH_ERR_UNSUPPORTED, "shocks: smoothing VOLUME has no density sum");
-  if (o->density == SPH_SHOCKS_INTEGRAL)
-    return sphi_fail(ctx, SPH_ERR_UNSUPPORTED, "shocks: INTEGRAL is not there yet");
   if (o->density == SPH_SHOCKS_INTEGRAL && !o->adaptive)
     return sphi_fail(ctx, SPH_ERR_ARG, "shocks: INTEGRAL solves for h, and needs adaptive");
   if (o->integrator == SPH_INTEGRATOR_BUTCHER || o->integrator == SPH_INTEGRATOR_RKC)
@@ -162,6 +160,7 @@ void sph_shocks_destroy(sph_shocks *shocks) {
   sphi_shocks_drop_parts(shocks);
   sph_rhs_destroy(shocks->rhs);
   sph_kernel_destroy(shocks->kernel);
+  sphi_buffer_free(ctx, &shocks->lengths);
   sphi_buffer_free(ctx, &shocks->drho);
   sphi_buffer_free(ctx, &shocks->strain);
   shocks->base.magic = 0;

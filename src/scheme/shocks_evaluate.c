@@ -40,38 +40,19 @@ static sph_status check_density(sph_shocks *shocks, double t) {
                    (long long)j.failed, t, (long long)shocks->book.steps + 1);
 }
 
-typedef struct length_job {
-  int32_t dim;
-  double eta;
-  const double *m, *rho;
-  double *h;
-  int64_t changed; /* lowest index; INT64_MAX: none */
-} length_job;
-
-static void length_range(void *job, int64_t lo, int64_t hi, int32_t worker) {
-  length_job *j = job;
-  int changed = 0;
-  (void)worker;
-  for (int64_t i = lo; i < hi; ++i) {
-    const double volume = j->m[i] / j->rho[i];
-    const double h = j->eta * (j->dim == 1 ? volume : j->dim == 2 ? sqrt(volume) : cbrt(volume));
-    changed |= h != j->h[i];
-    j->h[i] = h;
-  }
-  if (changed) sphi_lowest(&j->changed, lo);
-}
-
 /* Only a change is told, so that a list that was built for these lengths serves. */
 sph_status sphi_shocks_lengths(sph_shocks *shocks) {
-  length_job j = {.dim = shocks->options.dim,
-                  .eta = shocks->options.eta,
-                  .m = sph_particles_field_const(shocks->set, SPH_FIELD_M),
-                  .rho = sph_particles_field_const(shocks->set, SPH_FIELD_RHO),
-                  .changed = INT64_MAX};
-  sph_status s = sph_particles_field(shocks->set, SPH_FIELD_H, &j.h);
-  if (s) return s;
-  sphi_parallel(shocks->base.ctx, real_count(shocks), GRAIN, length_range, &j);
-  return j.changed == INT64_MAX ? SPH_OK : sph_particles_touch(shocks->set, SPH_FIELD_H);
+  const size_t bytes = sphi_mul((size_t)real_count(shocks), sizeof(double));
+  double *h;
+  sph_status s = sph_particles_field(shocks->set, SPH_FIELD_H, &h);
+  if (!s) s = sphi_buffer_reserve(shocks->base.ctx, &shocks->lengths, bytes);
+  if (!s)
+    s = sph_h_from_mass(shocks->base.ctx, shocks->options.dim, real_count(shocks),
+                        shocks->options.eta, sph_particles_field_const(shocks->set, SPH_FIELD_M),
+                        sph_particles_field_const(shocks->set, SPH_FIELD_RHO), shocks->lengths.ptr);
+  if (s || memcmp(h, shocks->lengths.ptr, bytes) == 0) return s;
+  memcpy(h, shocks->lengths.ptr, bytes);
+  return sph_particles_touch(shocks->set, SPH_FIELD_H);
 }
 
 /* P and C by the equations of state. */
@@ -132,11 +113,62 @@ static sph_status fill_omega(sph_shocks *shocks) {
   return sph_particles_touch(shocks->set, SPH_FIELD_OMEGA);
 }
 
+/* ---- densities by summation -------------------------------------------------------------- */
+
+int sphi_shocks_is_solved(const sph_shocks *shocks) {
+  const sphi_shock_solved *at = &shocks->solved;
+  return at->x == sph_particles_revision(shocks->set, SPH_FIELD_X) &&
+         at->m == sph_particles_revision(shocks->set, SPH_FIELD_M) &&
+         at->generation == sph_particles_generation(shocks->set);
+}
+
+void sphi_shocks_set_solved(sph_shocks *shocks) {
+  shocks->solved = (sphi_shock_solved){sph_particles_revision(shocks->set, SPH_FIELD_X),
+                                       sph_particles_revision(shocks->set, SPH_FIELD_M),
+                                       sph_particles_generation(shocks->set)};
+}
+
+static sph_status solve_once(sph_shocks *shocks, int64_t *kept) {
+  sph_adapt_options o;
+  sph_adapt_result result;
+  sph_adapt_options_init(&o);
+  sph_adapt_result_init(&result);
+  o.smoothing = shocks->options.smoothing;
+  o.eta = shocks->options.eta;
+  o.keep = shocks->options.keep_unsolved;
+  sph_status s = sph_adapt_smoothing(shocks->list, shocks->kernel, shocks->set, &o, &result);
+  *kept = result.kept;
+  return s;
+}
+
+/* H and RHO together; again where the lengths outgrow the layer of ghosts. */
+static sph_status solve(sph_shocks *shocks, double t) {
+  sph_status s = SPH_OK;
+  int64_t kept = 0;
+  for (int round = 0; !s && round < ROUNDS; ++round) {
+    const uint64_t generation = sph_particles_generation(shocks->set);
+    s = solve_once(shocks, &kept);
+    if (!s) s = fill_laws(shocks);
+    if (!s) s = make_ghosts(shocks, t);
+    if (generation == sph_particles_generation(shocks->set)) break;
+  }
+  shocks->book.unsolved += kept;
+  if (!s) sphi_shocks_set_solved(shocks);
+  return s;
+}
+
+/* ---- before the rates -------------------------------------------------------------------- */
+
+static int integral(const sph_shocks *shocks) {
+  return shocks->options.density == SPH_SHOCKS_INTEGRAL;
+}
+
 sph_status sphi_shocks_neighbors(sph_shocks *shocks, double t, const sph_rate *rates,
                                  int32_t count) {
-  sph_status s = fill_pointwise(shocks, t);
+  sph_status s = integral(shocks) ? fill_laws(shocks) : fill_pointwise(shocks, t);
   if (!s) s = call_hook(shocks, shocks->prepare, shocks->prepare_user, t, rates, count);
   if (!s) s = make_ghosts(shocks, t);
+  if (!s && integral(shocks) && !sphi_shocks_is_solved(shocks)) s = solve(shocks, t);
   return s ? s : sph_neighbors_update(shocks->list, shocks->set, NULL);
 }
 
@@ -241,7 +273,7 @@ int32_t sphi_shocks_filter(void *user, double t, sph_particles *set, int32_t cop
   (void)set;
   sph_status s = sigma ? return_stress(shocks, copy, sigma) : SPH_OK;
   if (s || copy != SPH_COPY_RESULT) return s;
-  return shocks->options.density == SPH_SHOCKS_DIFFERENTIAL ? fill_pointwise(shocks, t) : SPH_OK;
+  return integral(shocks) ? SPH_OK : fill_pointwise(shocks, t);
 }
 
 sph_status sphi_shocks_keep_strain(sph_shocks *shocks) {

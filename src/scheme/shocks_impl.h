@@ -32,7 +32,13 @@ typedef struct sphi_shock_book {
   double smallest_h;  /* at the start, of which the skin of the list is made */
   double integral[SPHI_SHOCK_INTEGRALS];
   int64_t steps, retries, unsolved;
+  int64_t solved; /* in a checkpoint: H and RHO belong to the positions */
 } sphi_shock_book;
+
+/* Revisions at which H and RHO of INTEGRAL were solved for. */
+typedef struct sphi_shock_solved {
+  uint64_t x, m, generation;
+} sphi_shock_solved;
 
 struct sph_shocks {
   sphi_object base;
@@ -53,8 +59,10 @@ struct sph_shocks {
   int32_t ledger_item; /* as the integrator names the array of integrals */
   sphi_shock_book book;
   sphi_gain pairs, held, after; /* before walls are held, after it, after the host's hook */
-  sphi_buffer drho;             /* of the last evaluation; DIFFERENTIAL */
-  sphi_buffer strain;           /* plastic strain of the step in hand, and of its other copies */
+  sphi_shock_solved solved;
+  sphi_buffer lengths; /* h as it follows from rho */
+  sphi_buffer drho;    /* of the last evaluation; DIFFERENTIAL */
+  sphi_buffer strain;  /* plastic strain of the step in hand, and of its other copies */
 };
 
 /* ---- shocks.c ---------------------------------------------------------------------------- */
@@ -75,6 +83,9 @@ int32_t sphi_shocks_finish(void *user, double t, sph_particles *set, const sph_r
 sph_status sphi_shocks_neighbors(sph_shocks *shocks, double t, const sph_rate *rates,
                                  int32_t count);
 sph_status sphi_shocks_fill(sph_shocks *shocks, double t, const sph_rate *rates, int32_t count);
+/* Whether H and RHO of INTEGRAL belong to the present positions; and that they do. */
+int sphi_shocks_is_solved(const sph_shocks *shocks);
+void sphi_shocks_set_solved(sph_shocks *shocks);
 /* After a good step: the plastic strain that its filter made. */
 sph_status sphi_shocks_keep_strain(sph_shocks *shocks);
 /* h = eta (m/rho)^(1/d) of the real particles. */

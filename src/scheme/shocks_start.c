@@ -135,6 +135,7 @@ static sph_status first_rates(sph_shocks *shocks, double t) {
 
 sph_status sphi_shocks_begin(sph_shocks *shocks, double t) {
   shocks->started = 0;
+  shocks->solved = (sphi_shock_solved){0, 0, 0};
   if (!isfinite(t)) return sphi_fail(shocks->base.ctx, SPH_ERR_ARG, "shocks: time %g", t);
   if (sph_particles_real_count(shocks->set) == 0)
     return sphi_fail(shocks->base.ctx, SPH_ERR_STATE, "shocks: the set is empty");

@@ -29,7 +29,9 @@ sph_status sph_shocks_state_size(sph_shocks *shocks, size_t *bytes) {
 sph_status sph_shocks_save(sph_shocks *shocks, void *buffer, size_t bytes) {
   sphi_checkpoint c;
   sph_status s = sphi_shocks_check(shocks, 1);
-  if (!s) s = pieces_of(shocks, &c);
+  if (s) return s;
+  shocks->book.solved = sphi_shocks_is_solved(shocks);
+  s = pieces_of(shocks, &c);
   return s ? s : sphi_checkpoint_write(&c, buffer, bytes);
 }
 
@@ -50,6 +52,7 @@ sph_status sph_shocks_restore(sph_shocks *shocks, const void *buffer, size_t byt
   s = sphi_shocks_make_fields(shocks);
   if (!s) s = read_state(shocks, buffer, bytes);
   if (!s) s = sphi_shocks_check_fields(shocks);
+  if (!s && shocks->book.solved) sphi_shocks_set_solved(shocks);
   if (!s) s = sphi_shocks_fill(shocks, shocks->book.time, NULL, 0);
   shocks->started = !s;
   return s;
