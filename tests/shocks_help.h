@@ -29,15 +29,18 @@ static CHECK_UNUSED sph_shocks_options sk_options(int32_t dim) {
   return o;
 }
 
-/* A gas with gamma 1.4; a stiffened one with strength. */
+/* A gas with gamma 1.4; a barotropic liquid, at rest at rho = 1, with strength. */
 static CHECK_UNUSED void sk_laws(cloud *c) {
   sph_gas_options gas;
+  sph_barotropic_options liquid;
   sph_strength_options strength;
   sph_gas_options_init(&gas);
   check_ok(sph_material_create_gas(c->ctx, &gas, &c->gas));
-  gas.gamma = 4.4;
-  gas.reference_pressure = 1.0;
-  check_ok(sph_material_create_gas(c->ctx, &gas, &c->liquid));
+  sph_barotropic_options_init(&liquid);
+  liquid.density = 1.0;
+  liquid.sound_speed = 1.5;
+  liquid.gamma = 3.0;
+  check_ok(sph_material_create_barotropic(c->ctx, &liquid, &c->liquid));
   sph_strength_options_init(&strength);
   strength.shear = 2.0;
   strength.yield = 0.05;
@@ -59,7 +62,7 @@ static CHECK_UNUSED void sk_fill(cloud *c, int64_t side) {
     phase[i] = c->kind != SK_GAS && i % side >= side / 2;
     rho[i] = rh_random(0.8, 1.2);
     m[i] = rho[i] * rh_random(0.8, 1.2);
-    e[i] = phase[i] ? (rh_random(0.0, 0.2) + 4.4) / (3.4 * rho[i]) : rh_random(0.9, 1.1);
+    e[i] = rh_random(0.9, 1.1);
   }
   check_ok(sph_particles_touch(c->set, SPH_FIELD_X));
 }

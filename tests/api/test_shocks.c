@@ -242,7 +242,6 @@ static void test_rotation(void **state) {
     sk_field(&c, SPH_FIELD_V)[2 * i] = 4.5 - x[2 * i + 1];
     sk_field(&c, SPH_FIELD_V)[2 * i + 1] = x[2 * i] - 4.5;
     sk_field(&c, SPH_FIELD_M)[i] = sk_field(&c, SPH_FIELD_RHO)[i] = 1.0;
-    sk_field(&c, SPH_FIELD_E)[i] = 4.4 / 3.4;
     sph_particles_phases(c.set)[i] = 1;
     const double start[3] = {0.01, -0.004, 0.006};
     for (int k = 0; k < 3; k++) s[3 * i + k] = start[k];
