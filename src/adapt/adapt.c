@@ -170,7 +170,7 @@ static double start_limit(const adaptation *c) {
   if (even == 0.0) return job->box_h;
   for (int64_t i = 0; i < job->rows; ++i)
     excess += fmin(pow(c->h[i] / even, job->dim), (double)job->n);
-  return excess > MANY * (double)job->rows ? fmin(2.0 * even, job->box_h) : job->box_h;
+  return excess > MANY * (double)job->rows ? fmin(even, job->box_h) : job->box_h;
 }
 
 static sph_status start(adaptation *c) {

@@ -10,6 +10,15 @@
 #include <float.h>
 #include <math.h>
 
+enum { KEPT = 512 }; /* pairs of a row whose geometry is computed once, on the stack */
+
+/* The row of one particle within its reach. */
+typedef struct row {
+  const sphi_adapt_job *job;
+  int64_t k, count; /* count -1: too many to keep */
+  double r[KEPT], weight[KEPT];
+} row;
+
 static double distance(const sphi_adapt_job *job, int64_t i, int64_t j) {
   const sph_neighbors *list = job->list;
   const double *a = job->x + i * job->dim, *b = job->x + j * job->dim;
@@ -26,21 +35,58 @@ static double weight(const sphi_adapt_job *job, int64_t i, int64_t j) {
   return job->m ? job->m[j] / job->m[i] : 1.0;
 }
 
+/* Rows may hold particles from beyond the reach of i, but not all of them. */
+static void fill(row *w, const sphi_adapt_job *job, int64_t k, double reach) {
+  const sph_neighbors *list = job->list;
+  const int64_t i = list->order[k];
+  const double cut = job->kernel->support * reach;
+  w->job = job;
+  w->k = k;
+  w->count = 0;
+  for (int64_t p = list->start[k]; p < list->start[k + 1]; ++p) {
+    const int64_t j = list->order[list->pair[p]];
+    const double r = distance(job, i, j);
+    if (r >= cut) continue;
+    if (w->count == KEPT) {
+      w->count = -1;
+      return;
+    }
+    w->r[w->count] = r;
+    w->weight[w->count++] = weight(job, i, j);
+  }
+}
+
+static void add_pair(const sph_kernel *kernel, double q, double weight, double *s, double *t) {
+  double w, dw;
+  if (q >= kernel->support) return;
+  sphi_kernel_profile(kernel, q, &w, &dw);
+  *s += weight * w;
+  *t -= weight * q * dw;
+}
+
 void sphi_adapt_sum(const sphi_adapt_job *job, int64_t k, double h, double *sum, double *slope) {
   const sph_neighbors *list = job->list;
   const int64_t i = list->order[k];
   double s = 0.0, t = 0.0;
   for (int64_t p = list->start[k]; p < list->start[k + 1]; ++p) {
     const int64_t j = list->order[list->pair[p]];
-    const double q = distance(job, i, j) / h;
-    if (q >= job->kernel->support) continue;
-    double w, dw;
-    sphi_kernel_profile(job->kernel, q, &w, &dw);
-    s += weight(job, i, j) * w;
-    t -= weight(job, i, j) * q * dw;
+    add_pair(job->kernel, distance(job, i, j) / h, weight(job, i, j), &s, &t);
   }
   *sum = job->own + job->kernel->alpha * s;
   *slope = job->kernel->alpha * t;
+}
+
+/* The same sum, in the same order. */
+static void sum_of_row(const row *w, double h, double *sum, double *slope) {
+  double s = 0.0, t = 0.0;
+  if (w->count < 0) {
+    sphi_adapt_sum(w->job, w->k, h, sum, slope);
+    return;
+  }
+  for (int64_t p = 0; p < w->count; ++p)
+    add_pair(w->job->kernel, w->r[p] / h, w->weight[p], &s, &t);
+  *sum = w->job->own + w->job->kernel->alpha * s;
+  *slope = w->job->kernel->alpha * t;
 }
 
 /* ---- particles for which no h will do ---------------------------------------------------- */
@@ -117,21 +163,23 @@ static void prepare(const sphi_adapt_job *job, int64_t k, sphi_adapt_particle *p
   const double least = sum_at_zero(job, k, &nearest);
   if (least >= job->target && job->h_min == 0.0) p->state = SPHI_ADAPT_COINCIDENT;
   if (is_alone(job, job->list->order[k]) && isinf(job->h_max)) p->state = SPHI_ADAPT_ALONE;
-  if (least < job->target) /* rows may hold some from beyond the reach, but not all of them */
+  if (least < job->target) /* nothing is nearer: the reach hides no one */
     p->low = fmax(p->low, fmin(nearest / job->kernel->support, p->reach));
   p->h = bounded(job, fmax(p->h, p->low));
 }
 
 void sphi_adapt_solve(const sphi_adapt_job *job, int64_t k) {
   sphi_adapt_particle *p = &job->particle[job->list->order[k]];
+  row w;
   prepare(job, k, p);
+  fill(&w, job, k, p->reach);
   while (p->state == SPHI_ADAPT_ACTIVE && p->h <= p->reach) {
     double slope;
     if (p->evaluations == job->max_evaluations) {
       p->state = SPHI_ADAPT_SPENT;
       return;
     }
-    sphi_adapt_sum(job, k, p->h, &p->sum, &slope);
+    sum_of_row(&w, p->h, &p->sum, &slope);
     p->evaluations += 1;
     const double miss = p->sum - job->target;
     if (settles(job, p, miss)) return;
