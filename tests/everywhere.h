@@ -407,7 +407,47 @@ static sph_status ew_step(everywhere *w) {
   if (s == SPH_OK) w->out[0] = info.error;
   return s;
 }
+static CHECK_UNUSED int32_t ew_filter(void *user, double t, sph_particles *set, int32_t copy,
+                                      const sph_rate *values, int32_t count) {
+  (void)user, (void)t, (void)set, (void)copy, (void)values, (void)count;
+  return 0;
+}
+static sph_status ew_predicted(everywhere *w) {
+  sph_integrator *it = NULL;
+  sph_integrator_options o;
+  sph_integrator_options_init(&o);
+  o.method = SPH_INTEGRATOR_LEAPFROG_PREDICTED;
+  sph_status s = sph_integrator_create(w->ctx, &o, &it);
+  if (s == SPH_OK) check_ok(sph_integrator_bind_field(it, SPH_FIELD_V));
+  if (s == SPH_OK) check_ok(sph_integrator_set_function(it, ew_decay, NULL));
+  if (s == SPH_OK) check_ok(sph_integrator_set_filter(it, ew_filter, NULL));
+  if (s == SPH_OK) s = sph_integrator_save(it, w->set);
+  if (s == SPH_OK) s = sph_integrator_step(it, w->set, 0.0, 0.25, NULL);
+  if (s == SPH_OK) check_ok(sph_integrator_restart(it));
+  sph_integrator_destroy(it);
+  return s;
+}
 static sph_status ew_cfl(everywhere *w) { return sph_cfl_step(w->set, 0.5, w->out); }
+static sph_status ew_adapt(everywhere *w) {
+  sph_neighbors_options lo;
+  sph_adapt_options o;
+  sph_neighbors *list = NULL;
+  sph_neighbors_options_init(&lo);
+  sph_adapt_options_init(&o);
+  lo.h_rule = SPH_H_MAX;
+  o.keep = 1;
+  sph_status s = sph_neighbors_create(w->ctx, &lo, &list);
+  if (s == SPH_OK) s = sph_adapt_smoothing(list, w->kernel, w->set, &o, NULL);
+  sph_neighbors_destroy(list);
+  return s;
+}
+static sph_status ew_signal(everywhere *w) { return sph_signal_step(w->list, &w->a, 0.25, w->out); }
+static sph_status ew_density_step(everywhere *w) {
+  double dt = -7.0;
+  sph_status s = sph_density_step(w->ctx, w->rows, 0.1, w->a.rho, w->a.v, &dt);
+  w->out[0] = isinf(dt) ? 0.0 : dt; /* nobody sets a limit */
+  return s;
+}
 static sph_status ew_memory(everywhere *w) {
   return sph_context_memory(w->ctx, &w->number, NULL, NULL);
 }
@@ -435,6 +475,7 @@ EW_SIMPLE(build, sph_neighbors_build(w->list, w->set))
 EW_SIMPLE(from_set, sph_operands_from_set(w->set, &w->a))
 EW_SIMPLE(artificial, sph_artificial_stress(w->dim, w->n, w->a.sigma, w->a.rho, 1.0, 0.3, w->out))
 EW_SIMPLE(h_density, sph_h_from_density(w->ctx, w->dim, w->n, w->a.h, w->a.rho, w->a.m, w->out))
+EW_SIMPLE(h_mass, sph_h_from_mass(w->ctx, w->dim, w->n, 1.2, w->a.m, w->a.rho, w->out))
 EW_SIMPLE(h_rate, sph_h_rate(w->ctx, w->dim, w->n, w->a.h, w->a.rho, w->a.p, w->out))
 EW_SIMPLE(h_spacing, sph_h_from_spacing(w->ctx, w->n, 1.5, w->a.h, w->out))
 EW_SIMPLE(principal, sph_principal_stresses(w->dim, w->n, w->a.sigma, w->out, w->more))
@@ -517,11 +558,17 @@ static const ew_entry ew_entries[] = {
     {"sph_rhs_add sph_rhs_add_host sph_rhs_set_material sph_rhs_set_prepare sph_rhs_set_finish",
      ew_add_term, 0, 1},
     {"sph_rhs_evaluate", ew_evaluate, EW_OUTPUT, 1},
+    {"sph_adapt_smoothing", ew_adapt, EW_WRITES, 1},
+    {"sph_h_from_mass", ew_h_mass, 0, 0},
+    {"sph_signal_step", ew_signal, 0, 1},
+    {"sph_density_step", ew_density_step, 0, 0},
     {"sph_integrator_create", ew_integrator_create, 0, 1},
     {"sph_integrator_bind_field sph_integrator_bind_array sph_integrator_set_function "
      "sph_integrator_set_rhs",
      ew_bind, 0, 1},
     {"sph_integrator_step", ew_step, EW_WRITES, 1},
+    {"sph_integrator_step sph_integrator_set_filter sph_integrator_restart", ew_predicted,
+     EW_WRITES, 1},
     {"sph_integrator_save", ew_save, 0, 1},
     {"sph_integrator_restore", ew_restore, EW_WRITES, 0},
     {"sph_rkc_coefficients", ew_coefficients, 0, 0},

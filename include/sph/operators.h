@@ -59,6 +59,10 @@ typedef struct sph_operands {
   const double *sigma;           /* n packed symmetric */
   const double *gradient_matrix; /* NULL, or from sph_gradient_matrix(): corrects gradients. Of the
                                   * rows; CONSERVATIVE reads all n. dim * dim each */
+  const double *e;               /* specific internal energy; e0 may be any finite number */
+  double e0;
+  const double *omega; /* factor of a variable smoothing length (smoothing.h) */
+  double omega0;       /* 0 = 1 */
 } sph_operands;
 
 /* Fill *operands with the defaults: arrays NULL, numbers 0 (rows -1). Since 0.1. */

@@ -156,13 +156,15 @@ sph_status sphi_butcher_step(sphi_step *step) {
   sph_status status = first_rate(step);
   for (int32_t i = 1; i < tab->s && status == SPH_OK; ++i) {
     sphi_combination c = stage(step, i, tab->a + i * tab->s);
-    sphi_write_stage(step, &c);
-    status = sphi_evaluate(it, step->set, step->t + tab->c[i] * step->dt,
-                           sphi_vector(it, SPHI_VEC_RATE + i));
+    const double t = step->t + tab->c[i] * step->dt;
+    status = sphi_write_stage(step, &c, t, SPH_COPY_STAGE);
+    if (status == SPH_OK)
+      status = sphi_evaluate(it, step->set, t, sphi_vector(it, SPHI_VEC_RATE + i));
   }
   if (status != SPH_OK) return status;
   sphi_combination c = stage(step, tab->s, tab->b);
-  sphi_write_stage(step, &c);
+  status = sphi_write_stage(step, &c, step->t + step->dt, SPH_COPY_RESULT);
+  if (status != SPH_OK) return status;
   estimate_error(step);
   step->info->stages = tab->s;
   return SPH_OK;

@@ -51,6 +51,16 @@ typedef struct sphi_memory {
   double growth; /* amplification of that mode in one step; NaN: not looked at */
 } sphi_memory;
 
+/* What a multistep method keeps of earlier steps (history.c), laid out as of `count` particles. */
+typedef struct sphi_history {
+  const sph_particles *set; /* whose; NULL: arrays alone */
+  int64_t count;            /* real particles; -1: nothing is kept */
+  sphi_buffer difference;   /* a vector */
+  sphi_buffer last_step;    /* of each real particle, dt; 0: it was not there */
+  sphi_buffer ids;
+  double array_step; /* the last dt, for plain arrays; 0: none yet */
+} sphi_history;
+
 struct sph_integrator {
   sphi_object base;
   sph_integrator_options options; /* the butcher_ pointers are cleared: see tableau */
@@ -69,6 +79,8 @@ struct sph_integrator {
   void *user;
   sph_rhs *rhs;
   sph_neighbors *list;
+  sph_filter_fn filter; /* NULL: none */
+  void *filter_user;
 
   /* Layout of the step in hand. */
   int64_t stride; /* doubles in a vector */
@@ -83,6 +95,8 @@ struct sph_integrator {
 
   sphi_memory memory;
   sphi_memory saved_memory;
+  sphi_history history;
+  double saved_array_step;
   int32_t warned;
 };
 
@@ -102,6 +116,7 @@ int32_t sphi_estimates(const sph_integrator *it); /* whether the method ever ite
 sph_status sphi_state_layout(sph_integrator *it, sph_particles *set);
 /* After a right-hand side: ghosts may have come and gone, real particles may not. */
 sph_status sphi_state_follow(sph_integrator *it, sph_particles *set);
+const sphi_item *sphi_item_of(const sph_integrator *it, int32_t field); /* NULL: not bound */
 void sphi_state_touch(const sph_integrator *it, sph_particles *set);
 void sphi_state_copy(sph_integrator *it, double *to, const double *from);
 
@@ -137,14 +152,22 @@ typedef struct sphi_step {
   int32_t has_info;    /* whether the host did */
 } sphi_step;
 
-/* Put a stage into the state: combine in place, then tell the set. */
-void sphi_write_stage(const sphi_step *step, const sphi_combination *c);
+/* A copy of the state stands in place, for time t: filter it, tell the set. */
+sph_status sphi_finish_stage(const sphi_step *step, double t, int32_t copy);
+/* Put a stage into the state: combine in place, then finish it. */
+sph_status sphi_write_stage(const sphi_step *step, const sphi_combination *c, double t,
+                            int32_t copy);
+/* Filter half-step values that lie in a vector; X is not among them. */
+sph_status sphi_filter_half(const sphi_step *step, double t, double *vector);
 /* Put the begin of the step back, to the bit. */
 void sphi_restore_start(const sphi_step *step);
 
 /* ---- methods ----------------------------------------------------------------------------- */
 sph_status sphi_butcher_step(sphi_step *step);
 sph_status sphi_leapfrog_step(sphi_step *step);
+sph_status sphi_leapfrog_predicted_step(sphi_step *step);
+/* The step is accepted: keep what the next one needs of it. */
+void sphi_leapfrog_predicted_keep(sphi_step *step);
 sph_status sphi_rkc_step(sphi_step *step);
 
 /* Built-in tableau of a method; 0 when it has none. */
@@ -153,6 +176,15 @@ int32_t sphi_butcher_builtin(int32_t method, sphi_tableau *tableau);
 int32_t sphi_butcher_order(const sphi_tableau *tableau, const double *b);
 /* |P(z)| of the stability polynomial. */
 double sphi_butcher_amplification(const sphi_tableau *tableau, double re, double im);
+
+/* ---- history.c --------------------------------------------------------------------------- */
+
+/* Bring the history to the layout and the particles of the step in hand; what is new gets
+ * difference 0 and last step 0. On failure it is as before. */
+sph_status sphi_history_follow(sph_integrator *it, const sph_particles *set);
+void sphi_history_stamp(sph_integrator *it, double dt); /* the last step of all was dt */
+void sphi_history_forget(sph_integrator *it);
+void sphi_history_free(sph_integrator *it);
 
 /* ---- power.c, stability.c ---------------------------------------------------------------- */
 

@@ -54,7 +54,7 @@ static int32_t positive(double x) { return isfinite(x) && x > 0.0; }
 static int32_t not_negative(double x) { return isfinite(x) && x >= 0.0; }
 
 static sph_status check_common(sph_context *ctx, const sph_integrator_options *o) {
-  if (o->method < SPH_INTEGRATOR_EULER || o->method > SPH_INTEGRATOR_RKC)
+  if (o->method < SPH_INTEGRATOR_EULER || o->method > SPH_INTEGRATOR_LEAPFROG_PREDICTED)
     return sphi_fail(ctx, SPH_ERR_ARG, "method %d is unknown", (int)o->method);
   if (!not_negative(o->rtol) || !not_negative(o->atol) || o->rtol + o->atol == 0.0)
     return sphi_fail(ctx, SPH_ERR_ARG,
@@ -187,7 +187,8 @@ static sph_status prepare_rkc(sph_integrator *it) {
 /* -1 stands for: RKC every 100 steps, whose name promises a stability it does not have on the
  * imaginary axis; the others never, whose limits are common knowledge. */
 static void settle_interval(sph_integrator_options *o) {
-  if (o->method == SPH_INTEGRATOR_LEAPFROG) o->stability_check_interval = 0;
+  if (o->method == SPH_INTEGRATOR_LEAPFROG || o->method == SPH_INTEGRATOR_LEAPFROG_PREDICTED)
+    o->stability_check_interval = 0;
   if (o->stability_check_interval < 0)
     o->stability_check_interval = o->method == SPH_INTEGRATOR_RKC ? 100 : 0;
 }
@@ -196,6 +197,7 @@ static sph_status fill_handle(sph_integrator *it) {
   it->memory.estimated_at = -1;
   it->memory.growth = NAN;
   it->memory.eigen = (sphi_eigen){NAN, NAN, NAN};
+  sphi_history_forget(it);
   sph_status status = prepare_tableau(it);
   if (status == SPH_OK) status = prepare_rkc(it);
   settle_interval(&it->options);
@@ -237,6 +239,7 @@ void sph_integrator_destroy(sph_integrator *it) {
   sphi_buffer_free(ctx, &it->vectors);
   sphi_buffer_free(ctx, &it->ids);
   sphi_buffer_free(ctx, &it->saved);
+  sphi_history_free(it);
   it->base.magic = 0;
   sphi_free(ctx, it, sizeof *it);
   sphi_context_release(ctx);
@@ -257,6 +260,7 @@ static void append(sph_integrator *it, int32_t field, double *y, int64_t n) {
   it->items += 1;
   it->has_saved = 0;
   it->memory.has_vector = 0;
+  sphi_history_forget(it);
 }
 
 sph_status sph_integrator_bind_field(sph_integrator *it, int32_t field) {
@@ -321,5 +325,27 @@ sph_status sph_integrator_set_rhs(sph_integrator *it, sph_rhs *rhs, sph_neighbor
   it->user = NULL;
   it->rhs = rhs;
   it->list = list;
+  return SPH_OK;
+}
+
+sph_status sph_integrator_set_filter(sph_integrator *it, sph_filter_fn fn, void *user) {
+  sph_status status = sphi_check_handle(NULL, it, SPHI_MAGIC_INTEGRATOR, "integrator");
+  if (status != SPH_OK) return status;
+  if (it->busy)
+    return sphi_fail(it->base.ctx, SPH_ERR_STATE, "a step of this integrator is running");
+  it->filter = fn;
+  it->filter_user = user;
+  return SPH_OK;
+}
+
+sph_status sph_integrator_restart(sph_integrator *it) {
+  sph_status status = sphi_check_handle(NULL, it, SPHI_MAGIC_INTEGRATOR, "integrator");
+  if (status != SPH_OK) return status;
+  if (it->busy)
+    return sphi_fail(it->base.ctx, SPH_ERR_STATE, "a step of this integrator is running");
+  it->memory.steps = 0;
+  it->memory.estimated_at = -1;
+  it->memory.has_vector = 0;
+  sphi_history_forget(it);
   return SPH_OK;
 }

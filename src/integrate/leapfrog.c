@@ -54,10 +54,11 @@ static void write_piece(sphi_step *step, int32_t k, int32_t count, const int32_t
     sphi_parallel(it->base.ctx, it->item[k].n, SPHI_STATE_GRAIN, piece_range, &job);
 }
 
-static int32_t item_of(const sph_integrator *it, int32_t field) {
-  int32_t k = 0;
-  while (it->item[k].field != field) ++k;
-  return k;
+/* The stage that stands in place, and its rate. */
+static sph_status finish_and_evaluate(sphi_step *step, double t, int32_t rate) {
+  sph_status status = sphi_finish_stage(step, t, SPH_COPY_STAGE);
+  return status == SPH_OK ? sphi_evaluate(step->it, step->set, t, sphi_vector(step->it, rate))
+                          : status;
 }
 
 /* ---- with other fields: three evaluations ------------------------------------------------ */
@@ -72,22 +73,21 @@ static void write_split(sphi_step *step, int32_t kicks, const int32_t *kick,
     else
       write_piece(step, k, 1, &drift, &drift_factor);
   }
-  sphi_state_touch(it, step->set);
 }
 
 static sph_status step_all(sphi_step *step) {
   static const int32_t predict[] = {F0, FH}, correct[] = {F0, F1};
-  sph_integrator *it = step->it;
-  double half[] = {0.5 * step->dt, 0.5 * step->dt};
+  const double half[] = {0.5 * step->dt, 0.5 * step->dt};
+  const double middle = step->t + 0.5 * step->dt, end = step->t + step->dt;
+  step->info->stages = 3;
   write_split(step, 1, predict, half, F0, 0.5 * step->dt);
-  sph_status status = sphi_evaluate(it, step->set, step->t + 0.5 * step->dt, sphi_vector(it, FH));
+  sph_status status = finish_and_evaluate(step, middle, FH);
   if (status != SPH_OK) return status;
   write_split(step, 2, predict, half, FH, step->dt);
-  status = sphi_evaluate(it, step->set, step->t + step->dt, sphi_vector(it, F1));
+  status = finish_and_evaluate(step, end, F1);
   if (status != SPH_OK) return status;
   write_split(step, 2, correct, half, FH, step->dt);
-  step->info->stages = 3;
-  return SPH_OK;
+  return sphi_finish_stage(step, end, SPH_COPY_RESULT);
 }
 
 /* ---- X and V alone: two evaluations ------------------------------------------------------ */
@@ -113,8 +113,7 @@ static void drift_range(void *job, int64_t begin, int64_t end, int32_t worker) {
 
 static void drift(sphi_step *step, int32_t final) {
   sph_integrator *it = step->it;
-  const sphi_item *x = &it->item[item_of(it, SPH_FIELD_X)];
-  const sphi_item *v = &it->item[item_of(it, SPH_FIELD_V)];
+  const sphi_item *x = sphi_item_of(it, SPH_FIELD_X), *v = sphi_item_of(it, SPH_FIELD_V);
   const double *start = sphi_vector(it, SPHI_VEC_START);
   const double *rate = sphi_vector(it, F0);
   drift_job job = {x->y,
@@ -129,19 +128,16 @@ static void drift(sphi_step *step, int32_t final) {
 
 static sph_status step_motion(sphi_step *step) {
   static const int32_t rates[] = {F0, F1};
-  sph_integrator *it = step->it;
-  int32_t v = item_of(it, SPH_FIELD_V);
-  double half[] = {0.5 * step->dt, 0.5 * step->dt};
+  const int32_t v = (int32_t)(sphi_item_of(step->it, SPH_FIELD_V) - step->it->item);
+  const double half[] = {0.5 * step->dt, 0.5 * step->dt}, end = step->t + step->dt;
+  step->info->stages = 2;
   drift(step, 0);
   write_piece(step, v, 1, rates, &step->dt);
-  sphi_state_touch(it, step->set);
-  sph_status status = sphi_evaluate(it, step->set, step->t + step->dt, sphi_vector(it, F1));
+  sph_status status = finish_and_evaluate(step, end, F1);
   if (status != SPH_OK) return status;
   write_piece(step, v, 2, rates, half);
   drift(step, 1);
-  sphi_state_touch(it, step->set);
-  step->info->stages = 2;
-  return SPH_OK;
+  return sphi_finish_stage(step, end, SPH_COPY_RESULT);
 }
 
 sph_status sphi_leapfrog_step(sphi_step *step) {

@@ -196,7 +196,8 @@ static sph_status probe(power_iteration *w, double *g_max) {
   sphi_combination c = {0, {0.0}, {NULL}};
   sphi_combination_add(&c, 1.0, sphi_vector(it, SPHI_VEC_START));
   sphi_combination_add(&c, amplitude, w->d);
-  sphi_write_stage(w->step, &c);
+  sphi_state_combine(it, NULL, &c); /* no filter: its derivative is not asked for */
+  sphi_state_touch(it, w->step->set);
   sph_status status = sphi_evaluate(it, w->step->set, w->step->t, w->g);
   if (status == SPH_OK) *g_max = multiply(w, amplitude);
   return status;

@@ -155,7 +155,14 @@ static update_job stage_factors(const sphi_step *step, int32_t k) {
   return u;
 }
 
-static void write_stage(sphi_step *step, int32_t k) {
+/* Stage k stands in place. */
+static sph_status finish(sphi_step *step, int32_t k) {
+  const int32_t last = k == step->info->stages;
+  const double c = last ? 1.0 : row(step->it, ROW_C)[k];
+  return sphi_finish_stage(step, step->t + c * step->dt, last ? SPH_COPY_RESULT : SPH_COPY_STAGE);
+}
+
+static sph_status write_stage(sphi_step *step, int32_t k) {
   sph_integrator *it = step->it;
   update_job u = stage_factors(step, k);
   for (int32_t m = 0; m < it->items; ++m) {
@@ -167,16 +174,17 @@ static void write_stage(sphi_step *step, int32_t k) {
     u.f = sphi_vector(it, F) + item->offset;
     if (item->n > 0) sphi_parallel(it->base.ctx, item->n, SPHI_STATE_GRAIN, update_range, &u);
   }
-  sphi_state_touch(it, step->set);
+  return finish(step, k);
 }
 
-static void write_first_stage(sphi_step *step) {
+static sph_status write_first_stage(sphi_step *step) {
   sph_integrator *it = step->it;
   sphi_combination c = {0, {0.0}, {NULL}};
   sphi_state_copy(it, sphi_vector(it, OLD), sphi_vector(it, SPHI_VEC_START));
   sphi_combination_add(&c, 1.0, sphi_vector(it, SPHI_VEC_START));
   sphi_combination_add(&c, row(it, ROW_MU_T)[1] * step->dt, sphi_vector(it, F0));
-  sphi_write_stage(step, &c);
+  sphi_state_combine(it, NULL, &c);
+  return finish(step, 1);
 }
 
 /* The recurrence reads Y_{k-1} from the state: what a right-hand side overwrote there (values it
@@ -184,14 +192,13 @@ static void write_first_stage(sphi_step *step) {
 static sph_status run_stages(sphi_step *step) {
   sph_integrator *it = step->it;
   prepare_coefficients(it, step->info->stages);
-  write_first_stage(step);
-  for (int32_t k = 2; k <= step->info->stages; ++k) {
+  sph_status status = write_first_stage(step);
+  for (int32_t k = 2; k <= step->info->stages && status == SPH_OK; ++k) {
     double t = step->t + row(it, ROW_C)[k - 1] * step->dt;
-    sph_status status = sphi_evaluate(it, step->set, t, sphi_vector(it, F));
-    if (status != SPH_OK) return status;
-    write_stage(step, k);
+    status = sphi_evaluate(it, step->set, t, sphi_vector(it, F));
+    if (status == SPH_OK) status = write_stage(step, k);
   }
-  return SPH_OK;
+  return status;
 }
 
 /* ---- error ------------------------------------------------------------------------------- */

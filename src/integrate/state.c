@@ -69,7 +69,8 @@ sph_status sphi_state_layout(sph_integrator *it, sph_particles *set) {
   it->real_count = sph_particles_real_count(set);
   it->generation = sph_particles_generation(set);
   status = reserve_vectors(it);
-  return status == SPH_OK ? remember_ids(it, set) : status;
+  if (status == SPH_OK) status = remember_ids(it, set);
+  return status == SPH_OK ? sphi_history_follow(it, set) : status;
 }
 
 /* ---- particles that change during a step ------------------------------------------------- */
@@ -107,6 +108,12 @@ sph_status sphi_state_follow(sph_integrator *it, sph_particles *set) {
                    "the right-hand side changed the real particles (%lld before, %lld now); "
                    "only ghosts may come and go during a step",
                    (long long)it->real_count, (long long)sph_particles_real_count(set));
+}
+
+const sphi_item *sphi_item_of(const sph_integrator *it, int32_t field) {
+  for (int32_t k = 0; k < it->items; ++k)
+    if (it->item[k].field == field) return &it->item[k];
+  return NULL;
 }
 
 void sphi_state_touch(const sph_integrator *it, sph_particles *set) {

@@ -13,8 +13,10 @@ int32_t sphi_estimates(const sph_integrator *it) {
          (o->method == SPH_INTEGRATOR_RKC && o->stage_rule == SPH_STAGES_POWER);
 }
 
-/* Start, then the rates of a tableau; F0, F, Y_{k-2} of RKC; F0, F_half, F1 of leapfrog. */
+/* Start, then the rates of a tableau; F0, F, Y_{k-2} of RKC; F0, F_half, F1 of leapfrog; F and the
+ * half-step values of the predicted one. */
 static int32_t method_vectors(const sph_integrator *it) {
+  if (it->options.method == SPH_INTEGRATOR_LEAPFROG_PREDICTED) return 3;
   return 1 + (it->tableau.s > 0 ? it->tableau.s : 3);
 }
 
@@ -52,18 +54,16 @@ static int32_t is_library_status(int32_t answer) {
 
 /* A callback may have called the library: what that said goes on. The text is copied first, as
  * the new sentence takes its place. */
-static sph_status translate(sph_integrator *it, double t, int32_t answer) {
-  sph_context *ctx = it->base.ctx;
+static sph_status translate(sph_context *ctx, const char *who, double t, int32_t answer) {
   char before[256];
   if (answer == 0) return SPH_OK;
   if (answer > 0)
-    return sphi_fail(ctx, SPH_RETRY, "the right-hand side asked for a smaller step at t = %.9g", t);
+    return sphi_fail(ctx, SPH_RETRY, "the %s asked for a smaller step at t = %.9g", who, t);
   if (!is_library_status(answer))
-    return sphi_fail(ctx, SPH_ERR_CALLBACK, "the right-hand side failed with %d at t = %.9g",
-                     (int)answer, t);
-  if (it->rhs) return answer;
+    return sphi_fail(ctx, SPH_ERR_CALLBACK, "the %s failed with %d at t = %.9g", who, (int)answer,
+                     t);
   (void)snprintf(before, sizeof before, "%s", sph_context_last_error(ctx));
-  return sphi_fail(ctx, answer, "the right-hand side answered %s at t = %.9g; last sentence: %s",
+  return sphi_fail(ctx, answer, "the %s answered %s at t = %.9g; last sentence: %s", who,
                    sph_status_name(answer), t, before);
 }
 
@@ -75,12 +75,42 @@ sph_status sphi_evaluate(sph_integrator *it, sph_particles *set, double t, doubl
   int32_t answer = it->rhs ? sph_rhs_evaluate(it->rhs, set, it->list, t, rates, it->items)
                            : it->fn(it->user, t, set, rates, it->items);
   sph_status status = sphi_state_follow(it, set);
-  return status == SPH_OK ? translate(it, t, answer) : status;
+  if (status != SPH_OK) return status;
+  if (it->rhs && answer < 0 && is_library_status(answer)) return answer;
+  return translate(it->base.ctx, "right-hand side", t, answer);
 }
 
-void sphi_write_stage(const sphi_step *step, const sphi_combination *c) {
-  sphi_state_combine(step->it, NULL, c);
+/* ---- the filter -------------------------------------------------------------------------- */
+
+/* vector NULL: the state in place. */
+static sph_status filter(const sphi_step *step, double t, int32_t copy, double *vector) {
+  sph_integrator *it = step->it;
+  sph_rate values[SPHI_ITEMS_MAX];
+  if (!it->filter) return SPH_OK;
+  for (int32_t k = 0; k < it->items; ++k) {
+    const sphi_item *item = &it->item[k];
+    values[k] = (sph_rate){item->field, vector ? vector + item->offset : item->y};
+    if (vector && item->field == SPH_FIELD_X) values[k].values = NULL;
+  }
+  int32_t answer = it->filter(it->filter_user, t, step->set, copy, values, it->items);
+  sph_status status = sphi_state_follow(it, step->set);
+  return status == SPH_OK ? translate(it->base.ctx, "filter", t, answer) : status;
+}
+
+sph_status sphi_filter_half(const sphi_step *step, double t, double *vector) {
+  return filter(step, t, SPH_COPY_HALF, vector);
+}
+
+sph_status sphi_finish_stage(const sphi_step *step, double t, int32_t copy) {
+  sph_status status = filter(step, t, copy, NULL);
   sphi_state_touch(step->it, step->set);
+  return status;
+}
+
+sph_status sphi_write_stage(const sphi_step *step, const sphi_combination *c, double t,
+                            int32_t copy) {
+  sphi_state_combine(step->it, NULL, c);
+  return sphi_finish_stage(step, t, copy);
 }
 
 void sphi_restore_start(const sphi_step *step) {
@@ -100,9 +130,7 @@ static sph_status check_time(const sph_integrator *it, double t, double dt) {
 }
 
 static int32_t has_field(const sph_integrator *it, int32_t field) {
-  for (int32_t k = 0; k < it->items; ++k)
-    if (it->item[k].field == field) return 1;
-  return 0;
+  return sphi_item_of(it, field) != NULL;
 }
 
 static sph_status check_ready(const sph_integrator *it) {
@@ -117,6 +145,9 @@ static sph_status check_ready(const sph_integrator *it) {
   if (it->options.method == SPH_INTEGRATOR_LEAPFROG &&
       (!has_field(it, SPH_FIELD_X) || !has_field(it, SPH_FIELD_V)))
     return sphi_fail(ctx, SPH_ERR_STATE, "leapfrog needs the fields X and V bound");
+  if (it->options.method == SPH_INTEGRATOR_LEAPFROG_PREDICTED && has_field(it, SPH_FIELD_X) &&
+      !has_field(it, SPH_FIELD_V))
+    return sphi_fail(ctx, SPH_ERR_STATE, "leapfrog needs the field V bound, by which X moves");
   return SPH_OK;
 }
 
@@ -134,6 +165,8 @@ static sph_status run_method(sphi_step *step) {
   switch (step->it->options.method) {
   case SPH_INTEGRATOR_LEAPFROG:
     return sphi_leapfrog_step(step);
+  case SPH_INTEGRATOR_LEAPFROG_PREDICTED:
+    return sphi_leapfrog_predicted_step(step);
   case SPH_INTEGRATOR_RKC:
     return sphi_rkc_step(step);
   default:
@@ -157,11 +190,13 @@ static sph_status run_step(sphi_step *step) {
   status = run_method(step);
   it->busy = 0;
   if (status == SPH_OK && it->options.check_finite) status = sphi_state_check_finite(it, step->set);
-  if (status == SPH_OK)
-    it->memory.steps += 1;
-  else
+  if (status != SPH_OK) {
     go_back(step, status);
-  return status;
+    return status;
+  }
+  it->memory.steps += 1;
+  if (it->options.method == SPH_INTEGRATOR_LEAPFROG_PREDICTED) sphi_leapfrog_predicted_keep(step);
+  return SPH_OK;
 }
 
 static sph_status read_info(sph_integrator *it, sph_step_info *info, const sph_step_info *host) {

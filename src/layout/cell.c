@@ -52,8 +52,8 @@ static void rectangle(sphi_polygon *polygon, double x0, double x1, double y0, do
 
 /* ---- 1-D --------------------------------------------------------------------------------- */
 
-static double interval(const sph_region_options *region, const double *x, int64_t mates,
-                       const sphi_cell_room *room, double *reach) {
+static void interval(const sph_region_options *region, const double *x, int64_t mates,
+                     const sphi_cell_room *room, double *reach, sphi_moments *moments) {
   double lo = region->lo[0] - x[0], hi = region->hi[0] - x[0];
   for (int64_t k = 0; k < mates; ++k) {
     const double middle = 0.5 * room->mates[k].d[0];
@@ -61,26 +61,46 @@ static double interval(const sph_region_options *region, const double *x, int64_
     if (middle > 0.0) hi = fmin(hi, middle);
   }
   *reach = fmax(-lo, hi);
-  return region->inside == NULL ? hi - lo : sphi_segment_inside(region, x[0], lo, hi);
+  if (region->inside == NULL)
+    sphi_add_segment(moments, lo, hi);
+  else
+    sphi_segment_inside(region, x[0], lo, hi, moments);
 }
 
 /* ---- 2-D --------------------------------------------------------------------------------- */
 
-static double area_in_region(const sph_region_options *region, const double *x,
-                             const sphi_polygon *polygon, double reach) {
-  if (region->inside != NULL) return sphi_polygon_inside(region, x, polygon);
-  double area = sphi_polygon_area(polygon);
+/* Area taken off by the holes; *cut tells whether one reaches the cell. */
+static double area_of_holes(const sph_region_options *region, const double *x,
+                            const sphi_polygon *polygon, double reach, int *cut) {
+  double area = 0.0;
   for (int32_t k = 0; k < region->holes; ++k) {
     const double *hole = sphi_hole(region->hole, k);
     const double centre[2] = {hole[0] - x[0], hole[1] - x[1]};
-    if (sqrt(length2(centre)) < hole[2] + reach)
-      area -= sphi_polygon_in_disc(polygon, centre, hole[2]);
+    if (sqrt(length2(centre)) >= hole[2] + reach) continue;
+    area += sphi_polygon_in_disc(polygon, centre, hole[2]);
+    *cut = 1;
   }
-  return fmax(0.0, area);
+  return area;
 }
 
-static double polygon_cell(const sph_region_options *region, const double *x, int64_t mates,
-                           sphi_cell_room *room, double *reach) {
+static void measure_polygon(const sph_region_options *region, const double *x,
+                            const sphi_polygon *polygon, double reach, int all,
+                            sphi_moments *moments) {
+  const double zero[2] = {0.0, 0.0};
+  int cut = 0;
+  if (region->inside != NULL) {
+    sphi_polygon_inside(region, x, polygon, moments);
+    return;
+  }
+  const double area = sphi_polygon_area(polygon) - area_of_holes(region, x, polygon, reach, &cut);
+  if (all && cut) sphi_polygon_inside(region, x, polygon, moments);
+  for (int64_t k = 0; all && !cut && k < polygon->n; ++k)
+    sphi_add_triangle(moments, zero, polygon->p[k], polygon->p[k + 1 < polygon->n ? k + 1 : 0]);
+  moments->volume = fmax(0.0, area);
+}
+
+static void polygon_cell(const sph_region_options *region, const double *x, int64_t mates, int all,
+                         sphi_cell_room *room, double *reach, sphi_moments *moments) {
   rectangle(&room->a, region->lo[0] - x[0], region->hi[0] - x[0], region->lo[1] - x[1],
             region->hi[1] - x[1]);
   *reach = reach_of(&room->a);
@@ -92,7 +112,7 @@ static double polygon_cell(const sph_region_options *region, const double *x, in
     swap(room);
     *reach = reach_of(&room->a);
   }
-  return area_in_region(region, x, &room->a, *reach);
+  measure_polygon(region, x, &room->a, *reach, all, moments);
 }
 
 /* ---- 3-D --------------------------------------------------------------------------------- */
@@ -152,24 +172,45 @@ static void cut_face(const sph_region_options *region, const double *x, int64_t 
   }
 }
 
-/* Pyramids from the particle to each face: volume = sum of offset * area / 3. */
-static double polyhedron_cell(const sph_region_options *region, const double *x, int64_t mates,
-                              sphi_cell_room *room, double *reach) {
-  double diagonal = 0.0, volume = 0.0, most = 0.0;
-  for (int a = 0; a < 3; ++a) diagonal = hypot(diagonal, region->hi[a] - region->lo[a]);
-  for (int64_t k = 0; k < mates + 6; ++k) {
-    const double offset = plane_of(region, x, room->mates, k).offset;
-    cut_face(region, x, mates + 6, k, 2.0 * diagonal, room);
-    volume += offset * sphi_polygon_area(&room->a) / 3.0;
-    if (room->a.n > 0) most = fmax(most, hypot(offset, reach_of(&room->a)));
-  }
-  *reach = most;
-  return volume;
+/* The pyramid from the particle, volume = offset * area / 3, to a face in plane k. Its centroid
+ * lies at 3/4 of the way to the face's, and int |y|^2 = offset/5 int over the face of |y|^2. */
+static void add_pyramid(const plane *face, const sphi_polygon *polygon, int all,
+                        sphi_moments *moments) {
+  const double zero[2] = {0.0, 0.0};
+  double u[3], v[3];
+  moments->volume += face->offset * sphi_polygon_area(polygon) / 3.0;
+  if (!all) return;
+  sphi_moments flat = {0.0, {0.0, 0.0, 0.0}, 0.0};
+  for (int64_t k = 0; k < polygon->n; ++k)
+    sphi_add_triangle(&flat, zero, polygon->p[k], polygon->p[k + 1 < polygon->n ? k + 1 : 0]);
+  tangents(face->n, u, v);
+  for (int a = 0; a < 3; ++a)
+    moments->first[a] +=
+        face->offset / 4.0 *
+        (face->offset * flat.volume * face->n[a] + flat.first[0] * u[a] + flat.first[1] * v[a]);
+  moments->second += face->offset / 5.0 * (face->offset * face->offset * flat.volume + flat.second);
 }
 
-double sphi_cell_measure(const sph_region_options *region, const double *x, int64_t mates,
-                         sphi_cell_room *room, double *reach) {
-  if (region->dim == 1) return interval(region, x, mates, room, reach);
-  if (region->dim == 2) return polygon_cell(region, x, mates, room, reach);
-  return polyhedron_cell(region, x, mates, room, reach);
+static void polyhedron_cell(const sph_region_options *region, const double *x, int64_t mates,
+                            int all, sphi_cell_room *room, double *reach, sphi_moments *moments) {
+  double diagonal = 0.0, most = 0.0;
+  for (int a = 0; a < 3; ++a) diagonal = hypot(diagonal, region->hi[a] - region->lo[a]);
+  for (int64_t k = 0; k < mates + 6; ++k) {
+    const plane face = plane_of(region, x, room->mates, k);
+    cut_face(region, x, mates + 6, k, 2.0 * diagonal, room);
+    add_pyramid(&face, &room->a, all, moments);
+    if (room->a.n > 0) most = fmax(most, hypot(face.offset, reach_of(&room->a)));
+  }
+  *reach = most;
+}
+
+void sphi_cell_measure(const sph_region_options *region, const double *x, int64_t mates, int all,
+                       sphi_cell_room *room, double *reach, sphi_moments *moments) {
+  *moments = (sphi_moments){0.0, {0.0, 0.0, 0.0}, 0.0};
+  if (region->dim == 1)
+    interval(region, x, mates, room, reach, moments);
+  else if (region->dim == 2)
+    polygon_cell(region, x, mates, all, room, reach, moments);
+  else
+    polyhedron_cell(region, x, mates, all, room, reach, moments);
 }

@@ -50,6 +50,24 @@ double sphi_polygon_in_disc(const sphi_polygon *polygon, const double *centre, d
   return area;
 }
 
+/* ---- moments ----------------------------------------------------------------------------- */
+
+void sphi_add_segment(sphi_moments *moments, double lo, double hi) {
+  moments->volume += hi - lo;
+  moments->first[0] += 0.5 * (hi * hi - lo * lo);
+  moments->second += (hi * hi * hi - lo * lo * lo) / 3.0;
+}
+
+/* int |y|^2 = A/6 (a^2 + b^2 + c^2 + a.b + b.c + c.a). */
+void sphi_add_triangle(sphi_moments *moments, const double *a, const double *b, const double *c) {
+  const double u[2] = {b[0] - a[0], b[1] - a[1]}, v[2] = {c[0] - a[0], c[1] - a[1]};
+  const double area = 0.5 * cross(u, v);
+  moments->volume += area;
+  for (int k = 0; k < 2; ++k) moments->first[k] += area / 3.0 * (a[k] + b[k] + c[k]);
+  moments->second +=
+      area / 6.0 * (dot(a, a) + dot(b, b) + dot(c, c) + dot(a, b) + dot(b, c) + dot(c, a));
+}
+
 /* ---- a host's test ----------------------------------------------------------------------- */
 
 typedef struct corner {
@@ -60,94 +78,103 @@ typedef struct corner {
 typedef struct halving {
   const sph_region_options *region;
   const double *x;
+  sphi_moments *sum;
 } halving;
 
-static int in_region(const sph_region_options *region, const double *at) {
+int sphi_in_region(const sph_region_options *region, const double *at) {
   for (int32_t k = 0; k < region->holes; ++k) {
     const double *hole = sphi_hole(region->hole, k);
     const double d[2] = {at[0] - hole[0], at[1] - hole[1]};
     if (dot(d, d) < hole[2] * hole[2]) return 0;
   }
-  return region->inside(region->inside_user, at) != 0;
+  return region->inside == NULL || region->inside(region->inside_user, at) != 0;
 }
 
 static corner look(const halving *h, double px, double py) {
   const double at[2] = {h->x[0] + px, h->region->dim > 1 ? h->x[1] + py : 0.0};
-  return (corner){{px, py}, in_region(h->region, at)};
+  return (corner){{px, py}, sphi_in_region(h->region, at)};
 }
 
 static corner between(const halving *h, const corner *a, const corner *b) {
   return look(h, 0.5 * (a->p[0] + b->p[0]), 0.5 * (a->p[1] + b->p[1]));
 }
 
-/* Fraction of the edge from a towards b, of which one is inside, that is on a's side. */
-static double crossing(const halving *h, const corner *a, const corner *b) {
+/* The point of the edge from a to b, of which one is inside, where the region ends. */
+static corner crossing(const halving *h, const corner *a, const corner *b) {
   double lo = 0.0, hi = 1.0;
   for (int k = 0; k < 30; ++k) {
     const double t = 0.5 * (lo + hi);
     const corner at = look(h, a->p[0] + t * (b->p[0] - a->p[0]), a->p[1] + t * (b->p[1] - a->p[1]));
     *(at.inside == a->inside ? &lo : &hi) = t;
   }
-  return 0.5 * (lo + hi);
+  const double t = 0.5 * (lo + hi);
+  return (corner){{a->p[0] + t * (b->p[0] - a->p[0]), a->p[1] + t * (b->p[1] - a->p[1])}, 1};
 }
 
 /* Corners alone do not tell about the middle of what is large: the first two levels always split.
  */
 enum { ALWAYS = 2 };
 
-static double segment(const halving *h, const corner *a, const corner *b, int level) {
-  const double length = b->p[0] - a->p[0];
-  if (a->inside == b->inside && level >= ALWAYS) return a->inside ? length : 0.0;
-  if (level >= h->region->levels) {
-    if (a->inside == b->inside) return a->inside ? length : 0.0;
-    const double t = crossing(h, a, b);
-    return length * (a->inside ? t : 1.0 - t);
+static void segment(const halving *h, const corner *a, const corner *b, int level) {
+  const int last = level >= h->region->levels;
+  if (a->inside == b->inside && (last || level >= ALWAYS)) {
+    if (a->inside) sphi_add_segment(h->sum, a->p[0], b->p[0]);
+  } else if (last) {
+    const corner end = crossing(h, a, b);
+    sphi_add_segment(h->sum, a->inside ? a->p[0] : end.p[0], a->inside ? end.p[0] : b->p[0]);
+  } else {
+    const corner middle = between(h, a, b);
+    segment(h, a, &middle, level + 1);
+    segment(h, &middle, b, level + 1);
   }
-  const corner middle = between(h, a, b);
-  return segment(h, a, &middle, level + 1) + segment(h, &middle, b, level + 1);
 }
 
-double sphi_segment_inside(const sph_region_options *region, double x, double lo, double hi) {
-  const halving h = {region, &x};
+void sphi_segment_inside(const sph_region_options *region, double x, double lo, double hi,
+                         sphi_moments *moments) {
+  const halving h = {region, &x, moments};
   const corner a = look(&h, lo, 0.0), b = look(&h, hi, 0.0);
-  return segment(&h, &a, &b, 0);
+  segment(&h, &a, &b, 0);
 }
 
 /* A triangle of which one corner differs from the other two, cut straight. */
-static double cut_triangle(const halving *h, const corner *c, double area) {
+static void cut_triangle(const halving *h, const corner *c) {
   int odd = 0;
   while (c[(odd + 1) % 3].inside != c[(odd + 2) % 3].inside) ++odd;
-  const double part =
-      crossing(h, &c[odd], &c[(odd + 1) % 3]) * crossing(h, &c[odd], &c[(odd + 2) % 3]);
-  return area * (c[odd].inside ? part : 1.0 - part);
+  const corner *top = &c[odd], *left = &c[(odd + 1) % 3], *right = &c[(odd + 2) % 3];
+  const corner a = crossing(h, top, left), b = crossing(h, top, right);
+  if (top->inside) {
+    sphi_add_triangle(h->sum, top->p, a.p, b.p);
+  } else {
+    sphi_add_triangle(h->sum, a.p, left->p, right->p);
+    sphi_add_triangle(h->sum, a.p, right->p, b.p);
+  }
 }
 
-static double triangle(const halving *h, const corner *c, int level) {
-  const double u[2] = {c[1].p[0] - c[0].p[0], c[1].p[1] - c[0].p[1]};
-  const double v[2] = {c[2].p[0] - c[0].p[0], c[2].p[1] - c[0].p[1]};
-  const double area = 0.5 * cross(u, v);
+static void triangle(const halving *h, const corner *c, int level) {
   const int all = c[0].inside == c[1].inside && c[1].inside == c[2].inside;
   const int last = level >= h->region->levels;
-  if (all && (last || level >= ALWAYS)) return c[0].inside ? area : 0.0;
-  if (last) return cut_triangle(h, c, area);
+  if (all && (last || level >= ALWAYS)) {
+    if (c[0].inside) sphi_add_triangle(h->sum, c[0].p, c[1].p, c[2].p);
+    return;
+  }
+  if (last) {
+    cut_triangle(h, c);
+    return;
+  }
   const corner m[3] = {between(h, &c[1], &c[2]), between(h, &c[2], &c[0]),
                        between(h, &c[0], &c[1])};
   const corner part[4][3] = {
       {c[0], m[2], m[1]}, {c[1], m[0], m[2]}, {c[2], m[1], m[0]}, {m[0], m[1], m[2]}};
-  double sum = 0.0;
-  for (int k = 0; k < 4; ++k) sum += triangle(h, part[k], level + 1);
-  return sum;
+  for (int k = 0; k < 4; ++k) triangle(h, part[k], level + 1);
 }
 
 /* A fan of triangles from the particle, which lies in its cell. */
-double sphi_polygon_inside(const sph_region_options *region, const double *x,
-                           const sphi_polygon *polygon) {
-  const halving h = {region, x};
-  double area = 0.0;
+void sphi_polygon_inside(const sph_region_options *region, const double *x,
+                         const sphi_polygon *polygon, sphi_moments *moments) {
+  const halving h = {region, x, moments};
   for (int64_t k = 0; k < polygon->n; ++k) {
     const double *p = polygon->p[k], *q = polygon->p[k + 1 < polygon->n ? k + 1 : 0];
     const corner fan[3] = {look(&h, 0.0, 0.0), look(&h, p[0], p[1]), look(&h, q[0], q[1])};
-    area += triangle(&h, fan, 0);
+    triangle(&h, fan, 0);
   }
-  return area;
 }

@@ -110,5 +110,7 @@ sph_status sph_operands_from_set(sph_particles *set, sph_operands *operands) {
   operands->p = sph_particles_field_const(set, SPH_FIELD_P);
   operands->c = sph_particles_field_const(set, SPH_FIELD_C);
   operands->sigma = sph_particles_field_const(set, SPH_FIELD_SIGMA);
+  operands->e = sph_particles_field_const(set, SPH_FIELD_E);
+  operands->omega = sph_particles_field_const(set, SPH_FIELD_OMEGA);
   return SPH_OK;
 }

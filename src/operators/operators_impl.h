@@ -3,6 +3,7 @@
 #ifndef SPHI_OPERATORS_IMPL_H
 #define SPHI_OPERATORS_IMPL_H
 
+#include "../sweep/smoothed.h"
 #include "../sweep/sweep.h"
 
 #include <sph/correction.h>
@@ -39,5 +40,12 @@ sph_status sphi_gradient_matrices(sph_neighbors *list, const sph_kernel *kernel,
 sph_status sphi_bulk_pressures(sph_neighbors *list, const sph_kernel *kernel,
                                const sph_operands *own, const sph_bulk_viscosity *o, double *gradv,
                                double *q);
+
+/* SPH_ERR_ARG where h differs and the list lacks pairs within the larger one. */
+sph_status sphi_check_both_h(const sph_neighbors *list, const char *name);
+
+/* Options (NULL: the defaults) over *own, checked. */
+sph_status sphi_dissipation_read(sph_context *ctx, const sph_dissipation *options, const char *name,
+                                 sph_dissipation *own);
 
 #endif

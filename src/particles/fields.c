@@ -23,7 +23,8 @@ static const builtin_field builtins[SPHI_BUILTIN_FIELDS] = {[SPH_FIELD_X] = {"x"
                                                             [SPH_FIELD_A] = {"a", VECTOR},
                                                             [SPH_FIELD_SPACING] = {"spacing", 1},
                                                             [SPH_FIELD_F] = {"F", MATRIX},
-                                                            [SPH_FIELD_PK] = {"PK", MATRIX}};
+                                                            [SPH_FIELD_PK] = {"PK", MATRIX},
+                                                            [SPH_FIELD_OMEGA] = {"omega", 1}};
 
 static int32_t resolve_components(int32_t code, int32_t dim) {
   if (code == VECTOR) return dim;

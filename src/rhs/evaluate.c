@@ -5,17 +5,23 @@
 #include <stdio.h>
 #include <string.h>
 
-int32_t sphi_term_field(int32_t kind) {
+/* The fields that a kind of term adds to, as bits. */
+static uint32_t term_fields(int32_t kind) {
   switch (kind) {
   case SPH_TERM_CONTINUITY:
-    return SPH_FIELD_RHO;
+    return 1u << SPH_FIELD_RHO;
   case SPH_TERM_STRESS_RATE:
-    return SPH_FIELD_SIGMA;
+    return 1u << SPH_FIELD_SIGMA;
   case SPH_TERM_XSPH:
   case SPH_TERM_MOTION:
-    return SPH_FIELD_X;
+    return 1u << SPH_FIELD_X;
+  case SPH_TERM_SMOOTHED:
+  case SPH_TERM_DISSIPATION:
+    return 1u << SPH_FIELD_RHO | 1u << SPH_FIELD_V | 1u << SPH_FIELD_E;
+  case SPH_TERM_SMOOTHED_STRESS:
+    return 1u << SPH_FIELD_V | 1u << SPH_FIELD_E;
   default:
-    return SPH_FIELD_V;
+    return 1u << SPH_FIELD_V;
   }
 }
 
@@ -26,7 +32,10 @@ double *sphi_rate_of(const sphi_evaluation *e, int32_t field) {
 }
 
 int sphi_term_wanted(const sphi_evaluation *e, int32_t kind) {
-  return e->rhs->terms[kind].kind && sphi_rate_of(e, sphi_term_field(kind)) != NULL;
+  uint32_t asked = 0;
+  for (int32_t k = 0; k < e->count; ++k)
+    if (e->rates[k].field < 32) asked |= 1u << e->rates[k].field;
+  return e->rhs->terms[kind].kind && (asked & term_fields(kind)) != 0;
 }
 
 int sphi_form_wanted(const sphi_evaluation *e, int32_t kind, int32_t form) {
@@ -84,7 +93,7 @@ static int needs_c(const sph_term *t) {
 static sph_status check_fields(sphi_evaluation *e) {
   const sph_operands *a = &e->a;
   sph_status s = require(e, a->h, SPH_FIELD_H, 0);
-  for (int32_t k = 1; !s && k <= SPHI_MAX_TERM; ++k) {
+  for (int32_t k = 1; !s && k < SPH_TERM_SMOOTHED; ++k) {
     const sph_term *t = &e->rhs->terms[k];
     if (!sphi_term_wanted(e, k)) continue;
     int velocity = k == SPH_TERM_CONTINUITY || k == SPH_TERM_STRESS_RATE ||
@@ -183,11 +192,13 @@ static sph_status evaluate(sphi_evaluation *e) {
   if (!s) s = check_fields(e);
   if (!s) s = sphi_frozen_check(e);
   if (!s) s = update_list(e);
+  if (!s) s = sphi_smoothed_check(e);
   if (!s) s = sphi_rhs_pressures(e);
   if (s) return s;
   clear_rates(e);
   if (e->rows > 0) s = sphi_rhs_sweeps(e);
   if (!s && e->rows > 0) s = sphi_rhs_frozen_terms(e);
+  if (!s && e->rows > 0) s = sphi_rhs_smoothed_terms(e);
   if (!s && e->rows > 0) s = sphi_rhs_host_terms(e);
   if (!s && e->rows > 0) s = sphi_rhs_stress_rates(e);
   if (s) return s;

@@ -35,6 +35,7 @@ static sphi_spec spec_of(const sphi_evaluation *e) {
   for (int k = 0; k < SWEEP_TERMS; ++k) {
     const sph_term *t = &e->rhs->terms[sweep_terms[k].kind];
     if (!sphi_term_wanted(e, sweep_terms[k].kind) || sphi_term_frozen(t)) continue;
+    if (t->kind == SPH_TERM_STRESS_RATE && sphi_smoothed_makes_gradient(e)) continue;
     spec.terms |= sweep_terms[k].term;
     if (t->corrected) spec.corrected |= sweep_terms[k].term;
     if (t->kind == SPH_TERM_CONTINUITY) spec.continuity = t->form;

@@ -14,6 +14,7 @@ typedef struct law_job {
   const int32_t *phase;
   double *out;
   double *energy; /* FIRST_PIOLA: may be NULL */
+  double *strain; /* PLASTIC_RETURN: may be NULL */
   int64_t failed;
   sph_status status; /* of a rerun of the failing run, on the calling thread */
 } law_job;
@@ -52,7 +53,10 @@ static sph_status run_law(const law_job *j, int64_t lo, int64_t hi) {
     return sphi_material_first_piola_quiet(m, b.dim, b.n, b.deformation_gradient,
                                            j->out + lo * b.dim * b.dim,
                                            j->energy ? j->energy + lo : NULL);
-  return sphi_material_pressure_quiet(m, &b, j->out + lo);
+  if (j->property == SPHI_MATERIAL_PLASTIC_RETURN)
+    return sphi_material_plastic_return_quiet(m, &b, j->out + lo * sph_sym_components(b.dim), NULL,
+                                              j->strain ? j->strain + lo : NULL, NULL);
+  return sphi_material_evaluate_quiet(m, j->property, &b, j->out + lo);
 }
 
 static int64_t run_end(const law_job *j, int64_t lo, int64_t hi) {
@@ -125,7 +129,9 @@ sph_status sphi_rhs_stress_rates(sphi_evaluation *e) {
                .phase = sphi_particles_phases(e->set),
                .out = sphi_rate_of(e, SPH_FIELD_SIGMA)};
   if (!sphi_term_wanted(e, SPH_TERM_STRESS_RATE)) return SPH_OK;
-  sph_status s = check_laws(&j, e->rows, 1);
+  /* Beside solids of which the deviator is integrated, a material without rate is a fluid. */
+  const int required = !e->rhs->terms[SPH_TERM_SMOOTHED_STRESS].kind;
+  sph_status s = check_laws(&j, e->rows, required);
   return s ? s : run_laws(&j, e->rows);
 }
 
@@ -164,6 +170,62 @@ sph_status sph_rhs_strain_energy(sph_rhs *rhs, sph_particles *set, double *energ
                .out = e.P,
                .energy = energy};
   s = check_laws(&j, e.a.rows, 1);
+  return s ? s : run_laws(&j, e.a.rows);
+}
+
+/* ---- laws by themselves ------------------------------------------------------------------ */
+
+/* An evaluation of nothing but laws. */
+static sph_status begin_laws(sph_rhs *rhs, sph_particles *set, sphi_evaluation *e, law_job *j) {
+  sph_status s = sphi_check_handle(NULL, rhs, SPHI_MAGIC_RHS, "rhs");
+  if (!s) s = sphi_check_handle(rhs->base.ctx, set, SPHI_MAGIC_PARTICLES, "set");
+  if (s) return s;
+  *e = (sphi_evaluation){.rhs = rhs, .set = set, .dim = sph_particles_dim(set)};
+  *j = (law_job){.e = e, .phase = sphi_particles_phases(set)};
+  return sph_operands_from_set(set, &e->a);
+}
+
+sph_status sph_rhs_fill(sph_rhs *rhs, sph_particles *set, int32_t field) {
+  sphi_evaluation e;
+  law_job j;
+  sph_status s = begin_laws(rhs, set, &e, &j);
+  if (!s && field != SPH_FIELD_P && field != SPH_FIELD_C)
+    s = sphi_fail(rhs->base.ctx, SPH_ERR_ARG, "sph_rhs_fill: field %d is neither P nor C",
+                  (int)field);
+  if (!s) s = sph_particles_field(set, field, &j.out);
+  j.property = field == SPH_FIELD_P ? SPHI_MATERIAL_PRESSURE : SPHI_MATERIAL_SOUND_SPEED;
+  if (!s) s = check_laws(&j, e.a.rows, 0);
+  if (!s) s = run_laws(&j, e.a.rows);
+  return s ? s : sph_particles_touch(set, field);
+}
+
+static sph_status check_return(const law_job *j, int64_t n) {
+  for (int64_t i = 0; i < n; i = run_end(j, i, n)) {
+    const sph_material *m = law_of(j, i);
+    const uint32_t needs = m ? sphi_material_needs(m, SPHI_MATERIAL_PLASTIC_RETURN) : 0;
+    const int across = (needs & SPHI_NEEDS_ACROSS) != 0;
+    if (!across && (j->strain || !(needs & SPHI_NEEDS_PLASTIC_STRAIN))) continue;
+    return sphi_fail(j->e->rhs->base.ctx, across ? SPH_ERR_UNSUPPORTED : SPH_ERR_ARG,
+                     "sph_rhs_plastic_return: the law of phase %d needs %s", (int)j->phase[i],
+                     across ? "the stress across" : "the plastic strain");
+  }
+  return SPH_OK;
+}
+
+sph_status sph_rhs_plastic_return(sph_rhs *rhs, sph_particles *set, double *sigma,
+                                  double *plastic_strain) {
+  sphi_evaluation e;
+  law_job j;
+  sph_status s = begin_laws(rhs, set, &e, &j);
+  if (!s && !sigma)
+    s = sphi_fail(rhs->base.ctx, SPH_ERR_ARG, "sph_rhs_plastic_return: sigma is NULL");
+  if (s) return s;
+  j.property = SPHI_MATERIAL_PLASTIC_RETURN;
+  j.out = sigma;
+  j.strain = plastic_strain;
+  e.a.sigma = sigma;
+  s = check_laws(&j, e.a.rows, 0);
+  if (!s) s = check_return(&j, e.a.rows);
   return s ? s : run_laws(&j, e.a.rows);
 }
 

@@ -82,6 +82,8 @@ static int32_t last_form(int32_t kind) {
     return SPH_PIOLA_SUMMED;
   case SPH_TERM_HOURGLASS:
     return SPH_HOURGLASS_CENTRAL;
+  case SPH_TERM_SMOOTHED:
+    return SPH_SMOOTHING_NUMBER;
   default:
     return 0;
   }
@@ -143,14 +145,20 @@ static sph_status check_term(sph_rhs *rhs, sph_term *t) {
 
 sph_status sph_rhs_add(sph_rhs *rhs, const sph_term *term) {
   sph_term own;
+  sph_dissipation dissipation;
   sph_status s = sphi_check_handle(NULL, rhs, SPHI_MAGIC_RHS, "rhs");
   if (s) return s;
   if (!term) return sphi_fail(rhs->base.ctx, SPH_ERR_ARG, "sph_rhs_add: the term is NULL");
   sph_term_init(&own);
   s = sphi_options_read(rhs->base.ctx, &own, sizeof own, term);
   if (!s) s = check_term(rhs, &own);
-  if (!s) rhs->terms[own.kind] = own;
-  return s;
+  if (!s && own.kind == SPH_TERM_DISSIPATION)
+    s = sphi_dissipation_read(rhs->base.ctx, own.dissipation, "sph_rhs_add", &dissipation);
+  if (s) return s;
+  if (own.kind == SPH_TERM_DISSIPATION) rhs->dissipation = dissipation;
+  own.dissipation = NULL; /* the host's */
+  rhs->terms[own.kind] = own;
+  return SPH_OK;
 }
 
 sph_status sph_rhs_add_host(sph_rhs *rhs, int32_t field, sph_pair_fn fn, void *user) {

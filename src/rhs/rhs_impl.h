@@ -9,7 +9,7 @@
 
 #include <sph/rhs.h>
 
-enum { SPHI_MAX_TERM = SPH_TERM_HOURGLASS, SPHI_MAX_HOST_TERMS = 16, SPHI_PHASES = 256 };
+enum { SPHI_MAX_TERM = SPH_TERM_DISSIPATION, SPHI_MAX_HOST_TERMS = 16, SPHI_PHASES = 256 };
 
 typedef struct sphi_host_term {
   int32_t field;
@@ -45,6 +45,7 @@ struct sph_rhs {
   sph_kernel *kernel; /* retained */
   sph_rhs_options options;
   sph_term terms[SPHI_MAX_TERM + 1]; /* by kind; kind 0 = absent */
+  sph_dissipation dissipation;       /* of SPH_TERM_DISSIPATION */
   sphi_host_term host[SPHI_MAX_HOST_TERMS];
   int32_t host_count;
   sph_material *materials[SPHI_PHASES]; /* retained, by phase */
@@ -74,10 +75,8 @@ typedef struct sphi_evaluation {
 
 /* The rate array asked for a field, or NULL. */
 double *sphi_rate_of(const sphi_evaluation *e, int32_t field);
-/* Whether a term is in the list and its field's rate is asked for. */
+/* Whether a term is in the list and the rate of a field that it adds to is asked for. */
 int sphi_term_wanted(const sphi_evaluation *e, int32_t kind);
-/* The field a kind of term adds to. */
-int32_t sphi_term_field(int32_t kind);
 
 /* Whether a term is wanted and has this form. */
 int sphi_form_wanted(const sphi_evaluation *e, int32_t kind, int32_t form);
@@ -97,6 +96,14 @@ sph_status sphi_rhs_frozen_terms(sphi_evaluation *e);
 sph_status sphi_rhs_matrices(sphi_evaluation *e);
 /* P of all particles from F by the materials (pointwise.c). */
 sph_status sphi_rhs_first_piola(sphi_evaluation *e);
+
+/* --- smoothed.c: terms with two smoothing lengths a pair --- */
+/* Fields that they need, and a list that reaches far enough. */
+sph_status sphi_smoothed_check(sphi_evaluation *e);
+/* Whether they make the velocity gradient that the materials read. */
+int sphi_smoothed_makes_gradient(const sphi_evaluation *e);
+/* Their sums, added to the rates. After the sweeps. */
+sph_status sphi_rhs_smoothed_terms(sphi_evaluation *e);
 
 /* Whether some material has a pressure law; P then need not exist before. */
 int sphi_rhs_has_pressure_law(const sph_rhs *rhs);

@@ -32,10 +32,7 @@ void sph_elastodynamics_options_init_sized(sph_elastodynamics_options *options, 
   sphi_options_init(options, size, &defaults, sizeof defaults);
 }
 
-enum {
-  RATES = 32, /* that an integrator binds at most */
-  HALVINGS = 20
-};
+enum { RATES = 32 }; /* that an integrator binds at most */
 
 static int in(int32_t x, int32_t lo, int32_t hi) { return x >= lo && x <= hi; }
 static int positive(double x) { return isfinite(x) && x > 0.0; }
@@ -196,11 +193,11 @@ static int32_t finish(void *user, double t, sph_particles *set, const sph_rate *
   sph_elastodynamics *solid = user;
   double *dv = rate_of(rates, count, SPH_FIELD_V);
   const int32_t audit = solid->options.audit && dv;
-  if (audit) solid->before = sphi_moments_of(solid, dv);
+  if (audit) solid->before = sphi_moments_of(solid->base.ctx, set, dv);
   hold_walls(solid, rate_of(rates, count, SPH_FIELD_X), dv);
   const int32_t answer =
       solid->finish ? solid->finish(solid->finish_user, t, set, rates, count) : 0;
-  if (audit) solid->after = sphi_moments_of(solid, dv);
+  if (audit) solid->after = sphi_moments_of(solid->base.ctx, set, dv);
   return answer;
 }
 
@@ -341,39 +338,42 @@ sph_status sph_elastodynamics_step(sph_elastodynamics *solid, double dt, sph_ste
   return s;
 }
 
-/* A step towards t_end, smaller when one is asked for. */
-static sph_status advance(sph_elastodynamics *solid, double t_end, sph_step_info *info) {
-  double dt, left = t_end - solid->time;
-  sph_status s = sph_elastodynamics_stable_dt(solid, &dt);
-  if (s) return s;
-  if (left < 2.0 * dt) dt = left > dt ? 0.5 * left : left;
-  s = sph_elastodynamics_step(solid, dt, info);
-  for (int tries = 0; s == SPH_RETRY && tries < HALVINGS; ++tries)
-    s = sph_elastodynamics_step(solid, dt *= 0.5, info);
-  if (!s && dt == left) solid->time = t_end;
-  return s;
+/* A run of the scheme with the host's function. */
+typedef struct run {
+  sph_elastodynamics *solid;
+  sph_elastodynamics_fn after;
+  void *user;
+} run;
+
+static sph_status run_dt(void *scheme, double *dt) {
+  return sph_elastodynamics_stable_dt(((run *)scheme)->solid, dt);
+}
+static sph_status run_step(void *scheme, double dt, sph_step_info *info) {
+  return sph_elastodynamics_step(((run *)scheme)->solid, dt, info);
+}
+static int32_t run_after(void *scheme, const sph_step_info *info) {
+  const run *r = scheme;
+  return r->after ? r->after(r->user, r->solid, info) : 0;
+}
+static int32_t run_halve(void *scheme, sph_status status) {
+  (void)scheme;
+  return status == SPH_RETRY;
 }
 
 sph_status sph_elastodynamics_run(sph_elastodynamics *solid, double t_end,
                                   sph_elastodynamics_fn after, void *user) {
-  sph_step_info info;
   sph_status s = sphi_scheme_check(solid, 1);
   if (s) return s;
-  const double begin = solid->time;
-  if (!isfinite(t_end) || t_end < begin)
-    return sphi_fail(solid->base.ctx, SPH_ERR_ARG, "elastodynamics: run from %g to %g", begin,
-                     t_end);
-  sph_step_info_init(&info);
-  while (!s && solid->time < t_end) {
-    s = advance(solid, t_end, &info);
-    const int32_t answer = !s && after ? after(user, solid, &info) : 0;
-    if (answer > 0) return SPH_OK;
-    if (answer < 0)
-      return sphi_fail(solid->base.ctx, SPH_ERR_CALLBACK, "the host answered %d at t = %g",
-                       (int)answer, solid->time);
-    if (!s) s = sphi_progress(solid->base.ctx, (solid->time - begin) / (t_end - begin), "running");
-  }
-  return s;
+  run r = {solid, after, user};
+  const sphi_march march = {.ctx = solid->base.ctx,
+                            .name = "elastodynamics",
+                            .scheme = &r,
+                            .time = &solid->time,
+                            .stable_dt = run_dt,
+                            .step = run_step,
+                            .after = run_after,
+                            .halve = run_halve};
+  return sphi_march_to(&march, t_end);
 }
 
 /* ---- parts ------------------------------------------------------------------------------- */

@@ -9,31 +9,8 @@ void sph_elastodynamics_ledger_init_sized(sph_elastodynamics_ledger *ledger, siz
   sphi_options_init(ledger, size, &empty, sizeof empty);
 }
 
-/* ---- sums -------------------------------------------------------------------------------- */
-
-/* x cross u, both with dim components: z in 2-D, nothing in 1-D. */
-static void add_moment(int32_t dim, double m, const double *x, const double *u, double out[3]) {
-  if (dim >= 2) out[2] += m * (x[0] * u[1] - x[1] * u[0]);
-  if (dim < 3) return;
-  out[0] += m * (x[1] * u[2] - x[2] * u[1]);
-  out[1] += m * (x[2] * u[0] - x[0] * u[2]);
-}
-
-sphi_moments sphi_moments_of(const sph_elastodynamics *solid, const double *u) {
-  const int32_t dim = solid->options.dim;
-  const double *m = sph_particles_field_const(solid->set, SPH_FIELD_M);
-  const double *x = sph_particles_field_const(solid->set, SPH_FIELD_X);
-  const double *v = sph_particles_field_const(solid->set, SPH_FIELD_V);
-  sphi_moments sum = {0};
-  for (int64_t i = 0; i < sph_particles_real_count(solid->set); ++i) {
-    const int64_t at = i * dim;
-    for (int32_t a = 0; a < dim; ++a) {
-      sum.power += m[i] * v[at + a] * u[at + a];
-      sum.linear[a] += m[i] * u[at + a];
-    }
-    add_moment(dim, m[i], x + at, u + at, sum.angular);
-  }
-  return sum;
+static sphi_moments moments_of(const sph_elastodynamics *solid, const double *u) {
+  return sphi_moments_of(solid->base.ctx, solid->set, u);
 }
 
 /* sigma : L, which is sigma : D. */
@@ -83,21 +60,15 @@ static sph_status damping_power(sph_elastodynamics *solid, int k, double t, doub
   const sph_rate rate = {SPH_FIELD_V, dv};
   if (!solid->damping[k]) return SPH_OK;
   sph_status s = sph_rhs_evaluate(solid->damping[k], solid->set, solid->list, t, &rate, 1);
-  if (!s) *out = -sphi_moments_of(solid, dv).power;
+  if (!s) *out = -moments_of(solid, dv).power;
   return s;
-}
-
-static double mass_of(const sph_elastodynamics *solid) {
-  const double *m = sph_particles_field_const(solid->set, SPH_FIELD_M);
-  double mass = 0.0;
-  for (int64_t i = 0; i < sph_particles_real_count(solid->set); ++i) mass += m[i];
-  return mass;
 }
 
 static void body_power(const sph_elastodynamics *solid, double *rates) {
   const double *v = sph_particles_field_const(solid->set, SPH_FIELD_V);
-  const double mass = mass_of(solid), *g = solid->options.body_force;
-  const sphi_moments of_v = sphi_moments_of(solid, v);
+  const double mass = sphi_mass_times(solid->base.ctx, solid->set, NULL),
+               *g = solid->options.body_force;
+  const sphi_moments of_v = moments_of(solid, v);
   rates[SPHI_BODY] = 0.0;
   for (int32_t a = 0; a < solid->options.dim; ++a) {
     rates[SPHI_BODY] += g[a] * of_v.linear[a];
@@ -138,7 +109,7 @@ sph_status sphi_ledger_rates(sph_elastodynamics *solid, double t, double *rates)
 
 void sphi_ledger_start(sph_elastodynamics *solid) {
   memset(solid->integral, 0, sizeof solid->integral);
-  solid->start = sphi_moments_of(solid, sph_particles_field_const(solid->set, SPH_FIELD_V));
+  solid->start = moments_of(solid, sph_particles_field_const(solid->set, SPH_FIELD_V));
 }
 
 static void read_integrals(const sph_elastodynamics *solid, sph_elastodynamics_ledger *l) {
@@ -186,10 +157,9 @@ sph_status sph_elastodynamics_balance(const sph_elastodynamics *solid,
                      ledger ? "not initialised" : "NULL");
   s = sphi_scheme_check(solid, 1);
   if (s) return s;
-  const sphi_moments now =
-      sphi_moments_of(solid, sph_particles_field_const(solid->set, SPH_FIELD_V));
+  const sphi_moments now = moments_of(solid, sph_particles_field_const(solid->set, SPH_FIELD_V));
   own.time = solid->time;
-  own.mass = mass_of(solid);
+  own.mass = sphi_mass_times(solid->base.ctx, solid->set, NULL);
   own.kinetic = 0.5 * now.power;
   memcpy(own.momentum, now.linear, sizeof own.momentum);
   memcpy(own.angular_momentum, now.angular, sizeof own.angular_momentum);

@@ -2,7 +2,7 @@
 #ifndef SPHI_SCHEME_IMPL_H
 #define SPHI_SCHEME_IMPL_H
 
-#include "../core/core.h"
+#include "moments.h"
 
 #include <sph/correction.h>
 #include <sph/elastodynamics.h>
@@ -25,11 +25,6 @@ enum {
   SPHI_MOMENT_FORM = SPHI_MOMENT_HOOKS + 3,
   SPHI_INTEGRALS = SPHI_MOMENT_FORM + 3
 };
-
-/* Weighted sums of an acceleration (or velocity) u: m v.u, m u, m x cross u. */
-typedef struct sphi_moments {
-  double power, linear[3], angular[3];
-} sphi_moments;
 
 struct sph_elastodynamics {
   sphi_object base;
@@ -63,7 +58,6 @@ sph_status sphi_ledger_create(sph_elastodynamics *solid);
 void sphi_ledger_start(sph_elastodynamics *solid);
 /* Rates of solid->integral at the state of an evaluation that has just been done. */
 sph_status sphi_ledger_rates(sph_elastodynamics *solid, double t, double *rates);
-sphi_moments sphi_moments_of(const sph_elastodynamics *solid, const double *u);
 
 /* ---- start.c ----------------------------------------------------------------------------- */
 

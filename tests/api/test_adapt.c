@@ -40,6 +40,19 @@ static void test_density(void **state) {
   sph_context_destroy(ctx);
 }
 
+/* Particles of volume m / rho = 8: an edge of 8, sqrt 8 or 2. */
+static void test_mass(void **state) {
+  (void)state;
+  sph_context *ctx = context_of(1);
+  const double m[2] = {4.0, 16.0}, rho[2] = {0.5, 2.0}, edge[] = {0.0, 8.0, sqrt(8.0), 2.0};
+  for (int32_t dim = 1; dim <= 3; dim++) {
+    double h[2];
+    check_ok(sph_h_from_mass(ctx, dim, 2, 1.2, m, rho, h));
+    for (int i = 0; i < 2; i++) check_rel(h[i], 1.2 * edge[dim], 1e-15);
+  }
+  sph_context_destroy(ctx);
+}
+
 /* h by Heun's rule over `steps` while rho = 2 + sin t, to t = 1. */
 static double integrated(sph_context *ctx, int32_t dim, int steps) {
   double h = 0.3, dt = 1.0 / steps, k1, k2, half;
@@ -201,6 +214,9 @@ static void test_refusals(void **state) {
   refused(ctx, sph_h_rate(ctx, 2, 2, good, bad, good, out), numeric, "rho = -3.5");
   refused(ctx, sph_h_rate(ctx, 2, 2, good, good, nan, out), numeric, "d rho/dt = nan");
   refused(ctx, sph_h_from_spacing(ctx, 2, 1.5, bad, out), numeric, "spacing = -3.5");
+  refused(ctx, sph_h_from_mass(ctx, 2, 2, -1.2, good, good, out), arg, "eta = -1.2");
+  refused(ctx, sph_h_from_mass(ctx, 2, 2, 1.2, bad, good, out), numeric, "m = -3.5");
+  refused(ctx, sph_h_from_mass(ctx, 2, 2, 1.2, good, nan, out), numeric, "rho = nan");
   check_ok(sph_h_rate(ctx, 2, 2, good, good, bad, out)); /* a rate may be negative */
   out[0] = out[1] = 7.0;
   check_status(sph_h_rate(ctx, 2, 2, bad, good, good, out), numeric);
@@ -210,8 +226,8 @@ static void test_refusals(void **state) {
 }
 
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(test_density),  cmocka_unit_test(test_rate),   cmocka_unit_test(test_spacing),
-    cmocka_unit_test(test_threads),  cmocka_unit_test(test_pair_h), cmocka_unit_test(test_pair_w),
-    cmocka_unit_test(test_refusals),
+    cmocka_unit_test(test_density), cmocka_unit_test(test_rate),     cmocka_unit_test(test_spacing),
+    cmocka_unit_test(test_mass),    cmocka_unit_test(test_threads),  cmocka_unit_test(test_pair_h),
+    cmocka_unit_test(test_pair_w),  cmocka_unit_test(test_refusals),
 };
 SPH_TEST_MAIN(tests)

@@ -10,7 +10,8 @@ static void run_all(int32_t dim, int64_t n, int64_t rows) {
     sph_context *ctx = rh_context(1);
     everywhere *w = ew_open(ctx, dim, n, rows);
     sph_status s = e->call(w), want = SPH_OK;
-    if (e->call == ew_cfl && rows == 0) want = SPH_ERR_NUMERIC; /* no step is the largest */
+    if ((e->call == ew_cfl || e->call == ew_signal) && rows == 0)
+      want = SPH_ERR_NUMERIC; /* no step is the largest */
     if (s != want)
       fail_msg("%s, %d-D, %d particles, %d real: %s: %s", e->name, (int)dim, (int)n, (int)rows,
                sph_status_name(s), sph_context_last_error(ctx));
@@ -130,6 +131,8 @@ static void test_refused_sets(void **state) {
   refuse_sick(ew_cfl, SPH_FIELD_H, SPH_ERR_NUMERIC);
   refuse_sick(ew_cfl, SPH_FIELD_C, SPH_ERR_NUMERIC);
   refuse_sick(ew_cfl, SPH_FIELD_V, SPH_ERR_NUMERIC);
+  refuse_sick(ew_signal, SPH_FIELD_C, SPH_ERR_NUMERIC);
+  refuse_sick(ew_signal, SPH_FIELD_V, SPH_ERR_NUMERIC);
 }
 
 /* --- numbers that are not finite --------------------------------------------------------- */
@@ -148,6 +151,8 @@ static void test_refused_sets(void **state) {
   X(time, sph_integrator_step(w->it, w->set, x, 0.1, NULL))                              \
   X(step, sph_integrator_step(w->it, w->set, 0.0, x, NULL))                              \
   X(cfl, sph_cfl_step(w->set, x, w->out))                                                \
+  X(signal, sph_signal_step(w->list, &w->a, x, w->out))                                  \
+  X(density_step, sph_density_step(w->ctx, w->rows, x, w->a.rho, w->a.v, w->out))        \
   X(m0, (w->a.m = NULL, w->a.m0 = x, ew_density_summation(w)))                           \
   X(rho0, (w->a.rho = NULL, w->a.rho0 = x, ew_velocity_gradient(w)))                     \
   X(c0, (w->a.c = NULL, w->a.c0 = x, ew_viscosity_monaghan(w)))                          \

@@ -118,7 +118,7 @@ static void test_common_refusals(void **state) {
   (void)state;
   sph_integrator_options_init(&o);
   TRY(o, method, 0, "method 0");
-  TRY(o, method, 10, "method 10");
+  TRY(o, method, 11, "method 11");
   TRY(o, rtol, -1.0, "rtol");
   TRY(o, atol, NAN, "atol");
   TRY(o, power_iterations, 0, "power_iterations");

@@ -4,9 +4,10 @@
 
 enum { N = 120, STEPS = 40 };
 
-static const int32_t methods[] = {SPH_INTEGRATOR_EULER,    SPH_INTEGRATOR_PC2, SPH_INTEGRATOR_HEUN,
-                                  SPH_INTEGRATOR_SSPRK3,   SPH_INTEGRATOR_RK4, SPH_INTEGRATOR_RK38,
-                                  SPH_INTEGRATOR_LEAPFROG, SPH_INTEGRATOR_RKC};
+static const int32_t methods[] = {
+    SPH_INTEGRATOR_EULER,    SPH_INTEGRATOR_PC2, SPH_INTEGRATOR_HEUN,
+    SPH_INTEGRATOR_SSPRK3,   SPH_INTEGRATOR_RK4, SPH_INTEGRATOR_RK38,
+    SPH_INTEGRATOR_LEAPFROG, SPH_INTEGRATOR_RKC, SPH_INTEGRATOR_LEAPFROG_PREDICTED};
 enum { METHODS = sizeof methods / sizeof *methods };
 
 /* A bar of unit stiffness and density, wave speed 1, spacing 1 / N. */

@@ -50,6 +50,7 @@ static void close_all(void) {
   X(run, SOLID, sph_elastodynamics_run(h, 1.0, NULL, NULL))                   \
   X(balance, SOLID, sph_elastodynamics_balance(h, &g.ledger))                 \
   X(h_density, CONTEXT, sph_h_from_density(h, 2, 4, g.in, g.in, g.in, g.out)) \
+  X(h_mass, CONTEXT, sph_h_from_mass(h, 2, 4, 1.2, g.in, g.in, g.out))        \
   X(h_rate, CONTEXT, sph_h_rate(h, 2, 4, g.in, g.in, g.in, g.out))            \
   X(h_spacing, CONTEXT, sph_h_from_spacing(h, 4, 1.5, g.in, g.out))
 
@@ -100,6 +101,9 @@ static void test_handles(void **state) {
   X(sph_h_from_density(CTX, 2, 4, g.in, NULL, g.in, g.out)) \
   X(sph_h_from_density(CTX, 2, 4, g.in, g.in, NULL, g.out)) \
   X(sph_h_from_density(CTX, 2, 4, g.in, g.in, g.in, NULL))  \
+  X(sph_h_from_mass(CTX, 2, 4, 1.2, NULL, g.in, g.out))     \
+  X(sph_h_from_mass(CTX, 2, 4, 1.2, g.in, NULL, g.out))     \
+  X(sph_h_from_mass(CTX, 2, 4, 1.2, g.in, g.in, NULL))      \
   X(sph_h_rate(CTX, 2, 4, NULL, g.in, g.in, g.out))         \
   X(sph_h_rate(CTX, 2, 4, g.in, NULL, g.in, g.out))         \
   X(sph_h_rate(CTX, 2, 4, g.in, g.in, NULL, g.out))         \

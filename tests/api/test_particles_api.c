@@ -265,13 +265,13 @@ static void test_remove_all(void **state) {
 static void test_builtin_fields(void **state) {
   (void)state;
   sph_context *ctx = make_context();
-  const char *names[] = {"x", "v",     "m",  "rho", "h",       "p", "c",
-                         "e", "sigma", "x0", "a",   "spacing", "F", "PK"};
+  const char *names[] = {"x",     "v",  "m", "rho",     "h", "p",  "c",    "e",
+                         "sigma", "x0", "a", "spacing", "F", "PK", "omega"};
   for (int32_t dim = 1; dim <= 3; dim++) {
     sph_particles *set = make_set(ctx, dim, 5);
     assert_int_equal(sph_particles_dim(set), dim);
     uint64_t generation = sph_particles_generation(set);
-    for (int32_t f = 0; f < 14; f++) {
+    for (int32_t f = 0; f < 15; f++) {
       int vector = f == SPH_FIELD_X || f == SPH_FIELD_V || f == SPH_FIELD_X0 || f == SPH_FIELD_A;
       int32_t want = vector ? dim : f == SPH_FIELD_SIGMA ? sph_sym_components(dim) : 1;
       if (f == SPH_FIELD_F || f == SPH_FIELD_PK) want = dim * dim;
@@ -294,7 +294,7 @@ static void test_field_refusals(void **state) {
   sph_context *ctx = make_context();
   sph_particles *set = make_set(ctx, 2, 5);
   double *values, lent[10];
-  const int32_t unknown[] = {-1, 14, 63, 64, 1000, INT32_MAX, INT32_MIN};
+  const int32_t unknown[] = {-1, 15, 63, 64, 1000, INT32_MAX, INT32_MIN};
   for (int k = 0; k < 7; k++) {
     values = lent;
     refused(ctx, sph_particles_field(set, unknown[k], &values), SPH_ERR_ARG, "no field");

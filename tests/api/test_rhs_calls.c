@@ -92,8 +92,8 @@ static void test_add_refusals(void **state) {
   check_status(sph_rhs_add(rhs, NULL), SPH_ERR_ARG);
   t.kind = 0;
   refused(ctx, sph_rhs_add(rhs, &t), SPH_ERR_ARG, "kind 0");
-  t.kind = SPH_TERM_HOURGLASS + 1;
-  refused(ctx, sph_rhs_add(rhs, &t), SPH_ERR_ARG, "kind 13");
+  t.kind = SPH_TERM_DISSIPATION + 1;
+  refused(ctx, sph_rhs_add(rhs, &t), SPH_ERR_ARG, "kind 16");
   t.kind = -1;
   check_status(sph_rhs_add(rhs, &t), SPH_ERR_ARG);
   for (int32_t kind = 1; kind <= SPH_TERM_ARTIFICIAL_STRESS; kind++) {

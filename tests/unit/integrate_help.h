@@ -125,4 +125,47 @@ static CHECK_UNUSED int32_t pendulum(void *user, double t, sph_particles *set,
   return 0;
 }
 
+/* Everything depends on everything; the rate of X has an XSPH-like part. */
+static CHECK_UNUSED int32_t tangle(void *user, double t, sph_particles *set, const sph_rate *rates,
+                                   int32_t count) {
+  double x = sph_particles_field_const(set, SPH_FIELD_X)[0];
+  double v = sph_particles_field_const(set, SPH_FIELD_V)[0], e = 0.7;
+  (void)user;
+  if (count == 3) e = sph_particles_field_const(set, SPH_FIELD_E)[0];
+  for (int32_t k = 0; k < count; ++k) {
+    double *f = rates[k].values;
+    if (rates[k].field == SPH_FIELD_X)
+      f[0] = v + 0.3 * sin(x + t);
+    else if (rates[k].field == SPH_FIELD_V)
+      f[0] = -e * sin(x) - 0.4 * v * v + cos(2.0 * t);
+    else
+      f[0] = -0.5 * e * v + 0.1 * x * x + 0.2 * sin(t);
+  }
+  return 0;
+}
+
+/* To t = 2; neighbouring steps differ by the factors 1 + uneven and 1 - uneven. */
+static CHECK_UNUSED void run_tangle(sph_context *ctx, int32_t method, int others, int steps,
+                                    double uneven, double *out) {
+  static const int32_t field[] = {SPH_FIELD_X, SPH_FIELD_V, SPH_FIELD_E};
+  sph_particles *set = make_set(ctx, 1, 1);
+  sph_integrator *it = make(ctx, method);
+  double *y[3] = {NULL, NULL, NULL};
+  for (int k = 0; k < 2 + others; ++k) {
+    check_ok(sph_particles_field(set, field[k], &y[k]));
+    check_ok(sph_integrator_bind_field(it, field[k]));
+    y[k][0] = 0.5 + 0.2 * k;
+  }
+  check_ok(sph_integrator_set_function(it, tangle, NULL));
+  double t = 0.0;
+  for (int n = 0; n < steps; ++n) {
+    double dt = 2.0 / steps * (n % 2 ? 1.0 + uneven : 1.0 - uneven);
+    check_ok(sph_integrator_step(it, set, t, dt, NULL));
+    t += dt;
+  }
+  for (int k = 0; k < 2 + others; ++k) out[k] = y[k][0];
+  sph_integrator_destroy(it);
+  sph_particles_destroy(set);
+}
+
 #endif

@@ -295,51 +295,14 @@ static sph_integrator *leapfrog(sph_context *ctx, sph_rhs_fn fn, void *user, int
   return it;
 }
 
-/* Everything depends on everything; the rate of X has an XSPH-like part. */
-static int32_t tangle(void *user, double t, sph_particles *set, const sph_rate *rates,
-                      int32_t count) {
-  double x = sph_particles_field_const(set, SPH_FIELD_X)[0];
-  double v = sph_particles_field_const(set, SPH_FIELD_V)[0], e = 0.7;
-  (void)user;
-  if (count == 3) e = sph_particles_field_const(set, SPH_FIELD_E)[0];
-  for (int32_t k = 0; k < count; ++k) {
-    double *f = rates[k].values;
-    if (rates[k].field == SPH_FIELD_X)
-      f[0] = v + 0.3 * sin(x + t);
-    else if (rates[k].field == SPH_FIELD_V)
-      f[0] = -e * sin(x) - 0.4 * v * v + cos(2.0 * t);
-    else
-      f[0] = -0.5 * e * v + 0.1 * x * x + 0.2 * sin(t);
-  }
-  return 0;
-}
-
-static void run_tangle(sph_context *ctx, int32_t method, int others, int steps, double *out) {
-  static const int32_t field[] = {SPH_FIELD_X, SPH_FIELD_V, SPH_FIELD_E};
-  sph_particles *set = make_set(ctx, 1, 1);
-  sph_integrator *it = make(ctx, method);
-  double *y[3] = {NULL, NULL, NULL};
-  for (int k = 0; k < 2 + others; ++k) {
-    check_ok(sph_particles_field(set, field[k], &y[k]));
-    check_ok(sph_integrator_bind_field(it, field[k]));
-    y[k][0] = 0.5 + 0.2 * k;
-  }
-  check_ok(sph_integrator_set_function(it, tangle, NULL));
-  for (int n = 0; n < steps; ++n)
-    check_ok(sph_integrator_step(it, set, n * (2.0 / steps), 2.0 / steps, NULL));
-  for (int k = 0; k < 2 + others; ++k) out[k] = y[k][0];
-  sph_integrator_destroy(it);
-  sph_particles_destroy(set);
-}
-
 static void test_leapfrog_order(void **state) {
   sph_context *ctx = context_with(1);
   (void)state;
   for (int others = 0; others < 2; ++others) {
     double exact[3], a[3], b[3];
-    run_tangle(ctx, SPH_INTEGRATOR_RK4, others, 4000, exact);
-    run_tangle(ctx, SPH_INTEGRATOR_LEAPFROG, others, 100, a);
-    run_tangle(ctx, SPH_INTEGRATOR_LEAPFROG, others, 200, b);
+    run_tangle(ctx, SPH_INTEGRATOR_RK4, others, 4000, 0.0, exact);
+    run_tangle(ctx, SPH_INTEGRATOR_LEAPFROG, others, 100, 0.0, a);
+    run_tangle(ctx, SPH_INTEGRATOR_LEAPFROG, others, 200, 0.0, b);
     for (int k = 0; k < 2 + others; ++k)
       check_close(log2(fabs(a[k] - exact[k]) / fabs(b[k] - exact[k])), 2.0, 0.15);
   }
@@ -461,6 +424,16 @@ static void test_cfl_step(void **state) {
   h[500] = 0.0;
   check_status(sph_cfl_step(set, 0.5, &dt), SPH_ERR_NUMERIC);
   assert_non_null(strstr(sph_context_last_error(ctx), "particle 123"));
+  c[123] = 10.0;
+  h[500] = 1e-300; /* the step is no number any more: never 0 */
+  c[500] = 1e200;
+  check_status(sph_cfl_step(set, 0.5, &dt), SPH_ERR_NUMERIC);
+  assert_non_null(strstr(sph_context_last_error(ctx), "is no step"));
+  c[500] = 1.0;
+  check_ok(sph_cfl_step(set, 0.5, &dt));
+  assert_true(dt > 0.0 && dt < 1e-299);
+  h[500] = 0.1;
+  check_ok(sph_cfl_step(set, 0.5, &dt));
   check_status(sph_cfl_step(set, 0.0, &dt), SPH_ERR_ARG);
   check_status(sph_cfl_step(set, NAN, &dt), SPH_ERR_ARG);
   check_status(sph_cfl_step(set, 1.0, NULL), SPH_ERR_ARG);

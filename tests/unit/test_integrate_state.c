@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 enum { N = 50 };
-static const int32_t every_method[] = {1, 2, 3, 4, 5, 6, 7, 8, 9};
+static const int32_t every_method[] = {1, 2, 3, 4, 5, 6, 7, 8, 9, 10};
 
 /* A pendulum for each particle that misbehaves at a chosen call. */
 typedef struct trap {
@@ -75,7 +75,7 @@ static sph_particles *set_of(sph_context *ctx) {
 /* Fail at each evaluation in turn, in each method; the fields are as before, to the bit. */
 static void check_failure(int32_t answer, int what, sph_status want, const char *sentence) {
   int last = what == 1 ? 1 : 4; /* a rate that weighs nothing in the end may be NaN */
-  for (int m = 0; m < 9; ++m)
+  for (int m = 0; m < 10; ++m)
     for (int at = 0; at < last; ++at) {
       trap p = {0, at, answer, what, 0, NULL};
       sph_context *ctx = context_with(1);
@@ -150,7 +150,7 @@ static void test_not_finite_allowed(void **state) {
 static void test_particles_removed_or_sorted(void **state) {
   (void)state;
   for (int what = 3; what <= 4; ++what)
-    for (int m = 0; m < 9; ++m) {
+    for (int m = 0; m < 10; ++m) {
       trap p = {0, 0, 0, what, 0, NULL};
       sph_context *ctx = context_with(1);
       sph_particles *set = set_of(ctx);
@@ -169,7 +169,7 @@ static void test_particles_removed_or_sorted(void **state) {
 /* Ghosts may come and go at each stage, and the arrays may move with them. */
 static void test_ghosts_come_and_go(void **state) {
   (void)state;
-  for (int m = 0; m < 9; ++m) {
+  for (int m = 0; m < 10; ++m) {
     trap p = {0, -1, 0, 0, 0, NULL}, q = {0, -1, 0, 0, 10, NULL};
     sph_context *ctx = context_with(1);
     sph_particles *a = set_of(ctx), *b = set_of(ctx);
@@ -347,7 +347,7 @@ static void test_same_bits(void **state) {
   size_t bytes = (2 * MANY + 3) * sizeof(double);
   double *a = malloc(bytes), *b = malloc(bytes);
   (void)state;
-  for (int m = 0; m < 9; ++m) {
+  for (int m = 0; m < 10; ++m) {
     run_kind(0, every_method[m], MANY, a);
     for (int kind = 1; kind <= 4; ++kind) {
       run_kind(kind, every_method[m], MANY, b);
@@ -369,7 +369,7 @@ static sph_integrator_options heavy(int32_t method) {
 
 static void test_steady_step_allocates_nothing(void **state) {
   (void)state;
-  for (int m = 0; m < 9; ++m) {
+  for (int m = 0; m < 10; ++m) {
     sph_context *ctx = context_with(2);
     sph_particles *set = set_of(ctx);
     sph_step_info info;
@@ -443,10 +443,11 @@ static sph_status set_scenario(sph_context *ctx, void *user) {
 static void test_no_memory(void **state) {
   static const int32_t leapfrog = SPH_INTEGRATOR_LEAPFROG;
   (void)state;
-  for (int m = 0; m < 9; ++m)
+  for (int m = 0; m < 10; ++m)
     if (every_method[m] != leapfrog) oom_sweep(memory_scenario, (void *)&every_method[m]);
   oom_sweep(set_scenario, (void *)&leapfrog);
   oom_sweep(set_scenario, (void *)&every_method[8]);
+  oom_sweep(set_scenario, (void *)&every_method[9]);
 }
 
 /* ---- save and restore -------------------------------------------------------------------- */
@@ -454,7 +455,7 @@ static void test_no_memory(void **state) {
 /* A repeated run has the same bits, although the power iteration has memory. */
 static void test_repeat_after_restore(void **state) {
   (void)state;
-  for (int m = 0; m < 9; ++m) {
+  for (int m = 0; m < 10; ++m) {
     trap p = {0, -1, 0, 0, 0, NULL};
     sph_context *ctx = context_with(1);
     sph_particles *set = set_of(ctx);
