@@ -6,6 +6,7 @@
  * in z = sqrt(y - y_0), y_0 the end: where c = 0 there, it grows as z, and in z all is smooth. */
 #include "reference_impl.h"
 
+#include <float.h>
 #include <math.h>
 
 /* cold, heat and their derivatives by rho */
