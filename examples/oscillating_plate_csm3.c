@@ -13,10 +13,9 @@
  *             same 1.2 s: mean and amplitude are half the sum and half the difference of the
  *             extremes, the frequency is from the first two falls through -0.0636 m. For the
  *             periodic state (-14.305 +- 14.305, -63.607 +- 65.160) mm and 1.0995 Hz are published.
- * Expected    amplitude in y too large by 6 % with 5 rows, .7 % with 10 and with 20 (of that .2 %
- *             against the published one): it has converged, for the one held layer takes no part of
- *             the strain away. (With three layers it is 1.8 % and 1.1 %.) Energy kept to 1e-6 of
- *             what gravity sets free.
+ * Expected    amplitude in y too large by 6 % with 5 rows, .7 % with 10, .5 % with 20, which is the
+ *             published one to 1e-4: the one held layer takes no part of the strain away. (With
+ *             three it is 1.8 % and 1.1 %.) Energy kept to 1e-6 of what gravity sets free.
  *
  *   oscillating_plate_csm3            history of A as CSV and, with gnuplot, a picture
  *   oscillating_plate_csm3 validate   the figures with 5 (reported only) and 10 rows
