@@ -19,8 +19,9 @@
  *             clumps; cured: below 1e-6 m/s. But: on a square lattice the artificial stress only
  *             slows the instability down. It acts on the four nearest neighbours and leaves the
  *             diagonal ones, at q = 1.18, where W'' > 0, to push rows of particles past each other,
- *             at 9.6e4/s for any epsilon about .3 (2.2e5/s without). In a triangular lattice all
- *             six neighbours are near, and it does cure.
+ *             at 9.6e4/s for any epsilon about .3 (2.2e5/s without). With h = 1.6 dp, says linear
+ *             analysis, nothing grows at epsilon .2 or .3 (7e4/s without), and so it is; in a
+ *             triangular lattice all six neighbours are near, and it cures at h = 1.2 dp, too.
  *
  *   tensile_instability            the table
  *   tensile_instability validate   one RESULT line a figure; long: stress points in the full plate
