@@ -10,10 +10,11 @@
  *             of -8.8436 MPa acts at x = 0: it is held on the first particle; the velocity 0 is
  *             held on the last. (Other form, for comparison: the sum, with ghosts beyond the ends.)
  * Reference   exact: with v0 = sigma0 / (rho c) = 1 m/s, v = v0 and sigma = -sigma0 behind the
- * front x = c t; at the fixed end the stress doubles. Published: elastic_bar_validate.h. Norms L1
- * and L2 of the velocity over all particles at t = 0.12 ms, relative. Expected    RKC at any CFL of
- * the table, N = 250: L1 = .089, L2 = .161, all of it viscous smearing, so rates of 1/2 and 1/4;
- * with alpha = beta = .5, h = 1.2 dp: L1 < .036.
+ *             front x = c t; at the fixed end the stress doubles. Published:
+ *             elastic_bar_validate.h.
+ * Norms       L1 and L2 of the velocity over all particles at t = 0.12 ms, relative.
+ * Expected    RKC at any CFL of the table, N = 250: L1 = .089, L2 = .161, all of it viscous
+ *             smearing, so rates of 1/2 and 1/4; with alpha = beta = .5, h = 1.2 dp: L1 < .036.
  *
  *   elastic_bar            compare RKC and RK4, write profiles as CSV and, with gnuplot, a picture
  *   elastic_bar validate   every entry of the published tables, one RESULT line each */

@@ -148,11 +148,19 @@ static bar_options options_of(const published *p) {
 
 /* ---- the tables -------------------------------------------------------------------------- */
 
+/* Entries of another row or column than the step says, "He ... (.118 us)", name it. */
+static void name_row(char keys[KEYS], const char *source) {
+  const char *row = strchr(source, '(');
+  const size_t used = strlen(keys);
+  if (row) snprintf(keys + used, KEYS - used, " row=\"%.*s\"", (int)strlen(row) - 2, row + 1);
+}
+
 static int compare_entry(const published *p, const bar_options *o, const outcome *r, int which) {
   const int first = which == CHECK_L1;
   const double measured = first ? r->error.l1 : r->error.l2, printed = first ? p->l1 : p->l2;
   char keys[KEYS];
   make_keys(keys, first ? "velocity_L1" : "velocity_L2", o, p->dt, r->stages);
+  name_row(keys, p->source);
   if (p->checked & which) return result_line(keys, measured, printed, p->source, 0.01, 1);
   result_report(keys, measured, printed, p->source, p->reason);
   return 0;

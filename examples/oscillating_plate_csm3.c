@@ -5,21 +5,21 @@
  *             control, no viscosity, leapfrog.
  * Set-up      cylinder of radius 0.05 m about (0.2, 0.2) m; plate of 0.02 m from it to x = 0.6 m.
  *             rho = 1000 kg/m^3, E = 1.4 MPa, nu = 0.4, g = 2 m/s^2 downwards from t = 0. `rows`
- *             particles across the plate; it goes on into the cylinder by a support radius, where
- *             it is held. The point A = (0.6, 0.2) m lies half a spacing beyond the last particles,
- *             which carry their deformation gradient to it.
+ *             particles across the plate; it goes on into the cylinder by one spacing, where it is
+ *             held. The point A = (0.6, 0.2) m lies half a spacing beyond the last particles, which
+ *             carry their deformation gradient to it.
  * Reference   displacement of A by high-order finite elements over 10 s, Turek & Hron 2006, in the
  *             data of TrixiParticles.jl (MIT), validation/oscillating_beam_2d. Compared over the
  *             same 1.2 s: mean and amplitude are half the sum and half the difference of the
  *             extremes, the frequency is from the first two falls through -0.0636 m. For the
  *             periodic state (-14.305 +- 14.305, -63.607 +- 65.160) mm and 1.0995 Hz are published.
- * Expected    too soft: y by 8 % with 5 rows, 2 % with 10, 1 % with 20, for the layer softened by
- *             the surface is thinner and the clamp better known. Energy kept to 1e-6 of what
- *             gravity sets free.
+ * Expected    amplitude in y too large by 6 % with 5 rows, .7 % with 10, .5 % with 20, which is the
+ *             published one to 1e-4: the one held layer takes no part of the strain away. (With
+ *             three it is 1.8 % and 1.1 %.) Energy kept to 1e-6 of what gravity sets free.
  *
  *   oscillating_plate_csm3            history of A as CSV and, with gnuplot, a picture
  *   oscillating_plate_csm3 validate   the figures with 5 (reported only) and 10 rows
- *   oscillating_plate_csm3 long       with 5, 10 and 20 rows, and their convergence */
+ *   oscillating_plate_csm3 long       with 5, 10 and 20 rows, and that they converge */
 #include "common.h"
 
 #include <string.h>
@@ -39,24 +39,41 @@ typedef struct plate {
 
 static double *make_field(plate *p, int32_t id) { return field(p->ctx, p->set, id); }
 
-/* Columns from within the cylinder to the tip. */
+/* Depth below the surface of the cylinder, < 0 outside. */
+static double depth(const double *x) { return radius - hypot(x[0] - centre, x[1] - centre); }
+
+/* The plate, and as much of it in the cylinder as a spacing is deep: there it is held. More held
+ * particles would tell those outside that the strain ends at the surface, and make it softer. */
+static int32_t in_plate(void *user, const double *x) {
+  const plate *p = user;
+  return depth(x) < p->dp * (1.0 - 1e-9);
+}
+
 static void make_particles(plate *p) {
-  const double root = centre + sqrt(radius * radius - 0.25 * thickness * thickness);
-  const int64_t columns = (int64_t)ceil((tip - root) / p->dp) + 4;
   sph_particles_options options;
+  sph_lattice_options lattice;
+  int64_t n;
+  sph_lattice_options_init(&lattice);
+  lattice.dim = 2;
+  lattice.spacing = p->dp;
+  lattice.lo[0] = tip - p->dp * ceil((tip - centre) / p->dp);
+  lattice.hi[0] = tip;
+  lattice.lo[1] = centre - 0.5 * thickness;
+  lattice.hi[1] = centre + 0.5 * thickness;
+  lattice.inside = in_plate;
+  lattice.inside_user = p;
+  need(p->ctx, sph_layout_lattice(p->ctx, &lattice, 0, NULL, &n));
   sph_particles_options_init(&options);
   options.dim = 2;
   need(p->ctx, sph_particles_create(p->ctx, &options, &p->set));
-  need(p->ctx, sph_particles_add(p->set, columns * p->rows, NULL));
+  need(p->ctx, sph_particles_add(p->set, n, NULL));
   double *x = make_field(p, SPH_FIELD_X), *m = make_field(p, SPH_FIELD_M);
   double *rho = make_field(p, SPH_FIELD_RHO);
-  for (int64_t k = 0; k < columns * p->rows; ++k) {
-    x[2 * k] = tip - ((double)(columns - 1 - k / p->rows) + 0.5) * p->dp;
-    x[2 * k + 1] = centre + ((double)(k % p->rows) + 0.5) * p->dp - 0.5 * thickness;
-    m[k] = density * p->dp * p->dp;
-    rho[k] = density;
-    if (hypot(x[2 * k] - centre, x[2 * k + 1] - centre) < radius)
-      sph_particles_roles(p->set)[k] = SPH_ROLE_WALL;
+  need(p->ctx, sph_layout_lattice(p->ctx, &lattice, n, x, &n));
+  for (int64_t i = 0; i < n; ++i) {
+    m[i] = density * p->dp * p->dp;
+    rho[i] = density;
+    if (depth(x + 2 * i) > -1e-9 * p->dp) sph_particles_roles(p->set)[i] = SPH_ROLE_WALL;
   }
 }
 
@@ -106,16 +123,16 @@ static void plate_destroy(plate *p) {
 /* ---- running ----------------------------------------------------------------------------- */
 
 /* Displacement of A: from the last column, F carries each particle's to it. */
-static void tip_displacement(const plate *p, double u[2]) {
-  const double *x = make_field((plate *)p, SPH_FIELD_X), *F = make_field((plate *)p, SPH_FIELD_F);
-  const double *X = make_field((plate *)p, SPH_FIELD_X0);
-  const int64_t n = sph_particles_count(p->set);
+static void tip_displacement(plate *p, double u[2]) {
+  const double *x = make_field(p, SPH_FIELD_X), *X = make_field(p, SPH_FIELD_X0);
+  const double *F = make_field(p, SPH_FIELD_F);
   u[0] = u[1] = 0.0;
-  for (int64_t i = n - p->rows; i < n; ++i) {
+  for (int64_t i = 0; i < sph_particles_count(p->set); ++i) {
     const double a[2] = {tip - X[2 * i], centre - X[2 * i + 1]};
+    if (a[0] > p->dp) continue;
     for (int k = 0; k < 2; ++k)
-      u[k] += (x[2 * i + k] + F[4 * i + 2 * k] * a[0] + F[4 * i + 2 * k + 1] * a[1] -
-               (k == 0 ? tip : centre)) /
+      u[k] += (x[2 * i + k] - X[2 * i + k] - a[k] + F[4 * i + 2 * k] * a[0] +
+               F[4 * i + 2 * k + 1] * a[1]) /
               p->rows;
   }
 }
@@ -163,46 +180,9 @@ static outcome plate_run(plate *p, FILE *csv) {
   return r;
 }
 
-/* ---- validation -------------------------------------------------------------------------- */
-
 /* Of the reference over the same 1.2 s. */
 static const double mean_x = -0.0146388, range_x = 0.0146392, mean_y = -0.0648220,
                     range_y = 0.0648220, frequency = 1.09472;
-static const char source[] = "Turek & Hron 2006 CSM3, data of TrixiParticles.jl";
-
-static int result(int rows, const char *quantity, double measured, double reference) {
-  char keys[128];
-  snprintf(keys, sizeof keys, "case=oscillating_plate_csm3 quantity=%s rows=%d", quantity, rows);
-  if (rows >= 10) return result_line(keys, measured, reference, source, 0.05, 1);
-  result_report(keys, measured, reference, source, "coarse, for the convergence");
-  return 0;
-}
-
-static int validate(int rows, double *error) {
-  plate p;
-  plate_create(&p, rows);
-  const outcome r = plate_run(&p, NULL);
-  plate_destroy(&p);
-  int failed = result(rows, "tip_x_mean_mm", 500.0 * (r.high[0] + r.low[0]), 1e3 * mean_x);
-  failed += result(rows, "tip_x_amplitude_mm", 500.0 * (r.high[0] - r.low[0]), 1e3 * range_x);
-  failed += result(rows, "tip_y_mean_mm", 500.0 * (r.high[1] + r.low[1]), 1e3 * mean_y);
-  failed += result(rows, "tip_y_amplitude_mm", 500.0 * (r.high[1] - r.low[1]), 1e3 * range_y);
-  failed += result(rows, "frequency", r.frequency, frequency);
-  char keys[128];
-  snprintf(keys, sizeof keys, "case=oscillating_plate_csm3 quantity=energy_drift rows=%d", rows);
-  *error = fabs(0.5 * (r.high[1] - r.low[1]) / range_y - 1.0);
-  return failed + result_bound(keys, r.drift, -1, 1e-6, "leapfrog");
-}
-
-static int validate_long(void) {
-  static const double rows[] = {5.0, 10.0, 20.0};
-  double error[3];
-  int failed = 0;
-  for (int k = 0; k < 3; ++k) failed += validate((int)rows[k], &error[k]);
-  return failed + result_bound("case=oscillating_plate_csm3 quantity=rate_tip_y_amplitude",
-                               convergence_rate(3, rows, error), 1, 1.5,
-                               "second order, less what the reference differs by");
-}
 
 /* ---- demo -------------------------------------------------------------------------------- */
 
@@ -229,10 +209,10 @@ static int demo(int rows) {
   return 0;
 }
 
+/* Every figure of the case; nothing in there is needed to use the library. */
+#include "oscillating_plate_csm3_validate.h"
+
 int main(int argc, char **argv) {
-  double error;
-  if (argc > 1 && strcmp(argv[1], "validate") == 0)
-    return validate(5, &error) + validate(10, &error) != 0;
-  if (argc > 1 && strcmp(argv[1], "long") == 0) return validate_long() != 0;
-  return demo(argc > 1 && atoi(argv[1]) > 1 ? atoi(argv[1]) : 10);
+  const char *mode = argc > 1 ? argv[1] : "demo";
+  return (strcmp(mode, "demo") == 0 ? demo(10) : validate(strcmp(mode, "long") == 0)) != 0;
 }

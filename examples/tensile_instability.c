@@ -1,22 +1,27 @@
 /* Tensile instability: stretched particles clump although the body should stand still. Three cures.
  *
- * Equations   dv_i/dt = sum_j m_j (sigma_i/rho_i^2 + sigma_j/rho_j^2 [+ f^4 (R_i + R_j)]) grad
- * W_ij, dx_i/dt = v_i, Hooke's law in rate form (plane stress; bar: uniaxial stress) with the
- * Jaumann rate, rho constant, uncorrected gradients, no viscosity. The summed form: in the
- * difference form a uniform stress exerts no force and nothing happens. Set-up      Magnesium (E =
- * 45 GPa, nu = .35, rho = 1738) under a uniform stress of +-3 GPa in all directions, cubic spline,
- * h = 1.2 dp, dp = .01 m; one particle gets 1e-7 m/s. Plate of .5 m, particles within .03 m of its
- * edges held; bar: 64 particles, periodic. RK4, c dt/dp = .25, 1 ms. Theory      Swegle, He 2015
- * (3.18): unstable where W''(r) sigma > 0 at the neighbours' distance; cubic spline: tension for h
- * < 1.5 dp. Growth rates: linear analysis of the lattice. Cures       artificial stress (epsilon
- * .3, n = 4), He 2015 (3.22); stress points (stress_points.h); pairs and kernels of the initial
- * configuration (total Lagrangian as printed, He 2015 (3.27), (3.28)). Expected    compression:
- * below 1e-6 m/s at 1 ms. Tension: above 1e-3 m/s before .1 ms, and clumps; cured: below 1e-6 m/s.
- * But: on a square lattice the artificial stress only slows the instability down. It acts on the
- * four nearest neighbours and leaves the diagonal ones, at q = 1.18, where W'' > 0, to push rows of
- * particles past each other, at 9.6e4/s for any epsilon about .3 (2.2e5/s without). In a triangular
- * lattice all six neighbours are near, and it does cure. Reference   He 2015, 3.5.1,
- * figs. 3.3, 3.4, without figures; times for the bar: an independent program.
+ * Equations   dv_i/dt = sum_j m_j (sigma_i/rho_i^2 + sigma_j/rho_j^2 [+ f^4 (R_i + R_j)]) g_ij,
+ *             dx_i/dt = v_i, Hooke's law in rate form (plane stress; bar: uniaxial stress) with the
+ *             Jaumann rate, rho constant, uncorrected gradients, no viscosity. The summed form: in
+ *             the difference form a uniform stress exerts no force and nothing happens.
+ * Set-up      Magnesium (E = 45 GPa, nu = .35, rho = 1738) under a uniform stress of +-3 GPa in all
+ *             directions, cubic spline, h = 1.2 dp, dp = .01 m; one particle gets 1e-7 m/s. Plate
+ *             of .5 m, particles within .03 m of its edges held; bar: 64 particles, periodic. RK4,
+ *             c dt/dp = .25, 1 ms.
+ * Theory      Swegle, He 2015 (3.18): unstable where W''(r) sigma > 0 at the neighbours' distance;
+ *             cubic spline: tension for h < 1.5 dp. Growth rates: linear analysis of the lattice.
+ * Cures       artificial stress (epsilon .3, n = 4), He 2015 (3.22); stress points
+ *             (stress_points.h); pairs and kernels of the initial configuration (total Lagrangian
+ *             as printed, He 2015 (3.27), (3.28), and in full).
+ * Reference   He 2015, 3.5.1, figs. 3.3, 3.4, without figures; times for the bar: an independent
+ *             program.
+ * Expected    compression: below 1e-6 m/s at 1 ms. Tension: above 1e-3 m/s before .1 ms, and
+ *             clumps; cured: below 1e-6 m/s. But: on a square lattice the artificial stress only
+ *             slows the instability down. It acts on the four nearest neighbours and leaves the
+ *             diagonal ones, at q = 1.18, where W'' > 0, to push rows of particles past each other,
+ *             at 9.6e4/s for any epsilon about .3 (2.2e5/s without). With h = 1.6 dp, says linear
+ *             analysis, nothing grows at epsilon .2 or .3 (7e4/s without), and so it is; in a
+ *             triangular lattice all six neighbours are near, and it cures at h = 1.2 dp, too.
  *
  *   tensile_instability            the table
  *   tensile_instability validate   one RESULT line a figure; long: stress points in the full plate

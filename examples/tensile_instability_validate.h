@@ -150,6 +150,8 @@ static int validate(int full) {
       {{SQUARE, 50, -3e9, 1.2, NONE}, STABLE},
       {{SQUARE, 50, 3e9, 1.2, NONE}, CLUMPS},
       {{SQUARE, 50, 3e9, 1.2, ARTIFICIAL}, FAILED_CURE},
+      {{SQUARE, 25, 3e9, 1.6, NONE}, CLUMPS},
+      {{SQUARE, 25, 3e9, 1.6, ARTIFICIAL}, STABLE},
       {{TRIANGULAR, 50, 3e9, 1.2, NONE}, CLUMPS},
       {{TRIANGULAR, 50, 3e9, 1.2, ARTIFICIAL}, STABLE},
       {{SQUARE, 25, 3e9, 1.2, POINTS}, STABLE},

@@ -82,7 +82,7 @@ static int32_t near(double x, double y) { return fabs(x - y) <= 1e-10; }
 int32_t sphi_butcher_order(const sphi_tableau *tableau, const double *b) {
   int32_t s = tableau->s;
   const double *a = tableau->a, *c = tableau->c;
-  double c2[SPHI_STAGES_MAX], c3[SPHI_STAGES_MAX], cac[SPHI_STAGES_MAX];
+  double c2[SPHI_STAGES_MAX] = {0.0}, c3[SPHI_STAGES_MAX], cac[SPHI_STAGES_MAX];
   double ac[SPHI_STAGES_MAX], ac2[SPHI_STAGES_MAX], aac[SPHI_STAGES_MAX], sum = 0.0;
   multiply(s, a, c, ac);
   multiply(s, a, ac, aac);

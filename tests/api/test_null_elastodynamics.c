@@ -1,5 +1,5 @@
 /* Every function of elastodynamics.h and adapt.h with a handle that is NULL or of another kind, and
- * with each required pointer NULL. test_null_everywhere sees to it that none is missing here. */
+ * with each required pointer NULL. test_null_complete sees to it that none is missing here. */
 #include "../solid_help.h"
 
 enum { SOLID, CONTEXT, PARTICLES, MATERIAL, KINDS };

@@ -1,6 +1,6 @@
 /* Every reference with a context that is NULL or of another kind, and with each required pointer
  * NULL; all calls of the tables succeed as they stand, so the refusals are real.
- * test_null_everywhere sees to it that no function is missing here. */
+ * test_null_complete sees to it that no function is missing here. */
 #include "../oom.h"
 
 #include <sph/sph.h>

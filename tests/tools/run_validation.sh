@@ -1,8 +1,8 @@
 #!/bin/bash
 # run_validation.sh ARGUMENT FOLDER PROGRAM...: run validation cases, JOBS (at most 2) at a time,
 # keep their output in FOLDER, print the table published | measured | verdict of their RESULT lines
-# and end with `N passed, N failed`. A case that crashes or prints no RESULT is a failure; a line
-# with verdict=report is neither.
+# and end with `N passed, N failed`. A case that crashes or prints no RESULT is a failure, and so is
+# a second line with the same case, quantity and keys; a line with verdict=report is neither.
 set -uo pipefail
 argument=$1 dir=$2
 shift 2
@@ -74,6 +74,7 @@ cat "${files[@]}" | grep -a '^RESULT ' | awk -v broken="$broken" '
   BEGIN { printf "%-22s %-58s | %14s | %14s | %s\n", "case", "entry", "published", "measured", "verdict" }
   {
     parse($0)
+    if (seen[value["case"] " " order]++) value["verdict"] = "keys of an entry above"
     if (value["verdict"] == "pass") ++passed
     else if (value["verdict"] != "report") { ++failed; value["verdict"] = "FAIL (" value["verdict"] ")" }
     else ++reported
