@@ -194,8 +194,8 @@ SPH_API sph_kernel *sph_shocks_kernel(sph_shocks *shocks);
  * *bytes receives the size. SPH_ERR_ARG: bytes NULL. SPH_ERR_STATE: not started; SPH_ERR_NOMEM.
  * Since 0.1. */
 SPH_API sph_status sph_shocks_state_size(sph_shocks *shocks, size_t *bytes);
-/* Write it. SPH_ERR_ARG: buffer NULL, not aligned as doubles are, or shorter than the size. Others
- * as above. Since 0.1. */
+/* Write it. The list is built anew by the next step, as in a restored run. SPH_ERR_ARG: buffer
+ * NULL, not aligned as doubles are, or shorter than the size. Others as above. Since 0.1. */
 SPH_API sph_status sph_shocks_save(sph_shocks *shocks, void *buffer, size_t bytes);
 /* Take it up. SPH_ERR_ARG: buffer as above; not such a state, damaged, or of other options or
  * another set: nothing has changed then but that the scheme must be started or restored again. What

@@ -105,6 +105,28 @@ SPH_API sph_status sph_total_lagrangian_time_step(sph_total_lagrangian *tl,
 SPH_API sph_status sph_total_lagrangian_step(sph_total_lagrangian *tl, sph_particles *set, double t,
                                              double dt);
 
+/* Checkpoints: the state of a run in a buffer of the host's, after which it continues bit for bit,
+ * in the same process or in another one. It holds X, V, X0, H, M, RHO, C of the
+ * real particles, and the acceleration that the leapfrog carries over, and what the integrator
+ * keeps of earlier steps. Roles, phases, ghosts, hooks and fields of the host's own are not in it:
+ * create with the same options and materials, fill roles and phases of a set with as many particles
+ * in the same order, and restore instead of starting. Numbers are written as this machine has them;
+ * a sum over all bytes guards them.
+ *
+ * *bytes receives the size. SPH_ERR_ARG: bytes NULL. SPH_ERR_STATE: not started; SPH_ERR_NOMEM.
+ * Since 0.1. */
+SPH_API sph_status sph_total_lagrangian_state_size(sph_total_lagrangian *tl, sph_particles *set,
+                                                   size_t *bytes);
+/* Write it. SPH_ERR_ARG: buffer NULL, not aligned as doubles are, or shorter than the size. Others
+ * as above. Since 0.1. */
+SPH_API sph_status sph_total_lagrangian_save(sph_total_lagrangian *tl, sph_particles *set,
+                                             void *buffer, size_t bytes);
+/* Take it up. SPH_ERR_ARG: buffer as above; not such a state, damaged, or of other options or
+ * another set: nothing has changed then but that the scheme must be started or restored again. What
+ * sph_neighbors_build_arrays() answers. Since 0.1. */
+SPH_API sph_status sph_total_lagrangian_restore(sph_total_lagrangian *tl, sph_particles *set,
+                                                const void *buffer, size_t bytes);
+
 /* Energies of the real particles, each a sum over them in order; add the potential of what the host
  * applies. */
 typedef struct sph_total_lagrangian_energies {

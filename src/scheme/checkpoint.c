@@ -28,6 +28,11 @@ sph_status sphi_checkpoint_field(sphi_checkpoint *c, int32_t field) {
   return SPH_OK;
 }
 
+sph_status sphi_checkpoint_forget_list(sph_neighbors *list, int32_t dim) {
+  const double nothing = 0.0;
+  return sph_neighbors_build_arrays(list, dim, 0, &nothing, NULL, 1.0);
+}
+
 /* Fowler, Noll, Vo, in words of 8 bytes. */
 static uint64_t sum_of(const char *data, size_t bytes) {
   uint64_t sum = UINT64_C(0xcbf29ce484222325);

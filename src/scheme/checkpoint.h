@@ -5,6 +5,7 @@
 #include "../core/core.h"
 
 #include <sph/integrator.h>
+#include <sph/neighbors.h>
 #include <sph/particles.h>
 
 enum { SPHI_PIECES = 12 };
@@ -28,6 +29,11 @@ typedef struct sphi_checkpoint {
 /* Append memory, or a field of the real particles, which is created where it is missing. */
 void sphi_checkpoint_add(sphi_checkpoint *c, void *data, size_t bytes);
 sph_status sphi_checkpoint_field(sphi_checkpoint *c, int32_t field);
+
+/* Let a list be built at its next update. What a kept Verlet list holds depends on when it was
+ * built, and with it the rounding of sums: the run that is saved and the one that is restored both
+ * begin with a new one. */
+sph_status sphi_checkpoint_forget_list(sph_neighbors *list, int32_t dim);
 
 sph_status sphi_checkpoint_size(const sphi_checkpoint *c, size_t *bytes);
 sph_status sphi_checkpoint_write(const sphi_checkpoint *c, void *buffer, size_t bytes);

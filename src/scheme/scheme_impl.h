@@ -63,6 +63,10 @@ sph_status sphi_ledger_rates(sph_elastodynamics *solid, double t, double *rates)
 
 /* List and integrator for this smallest spacing and largest wave speed. */
 sph_status sphi_scheme_make_parts(sph_elastodynamics *solid, double spacing, double speed);
+/* What they are made of: smallest spacing, and largest wave speed, with which C is filled. */
+sph_status sphi_scheme_extent(sph_elastodynamics *solid, double *spacing, double *speed);
+/* The set's fields for the references of the law DENSITY, where that is chosen. */
+sph_status sphi_scheme_reference_fields(sph_elastodynamics *solid);
 void sphi_scheme_drop_parts(sph_elastodynamics *solid);
 
 /* ---- elastodynamics.c -------------------------------------------------------------------- */

@@ -32,7 +32,8 @@ sph_status sph_shocks_save(sph_shocks *shocks, void *buffer, size_t bytes) {
   if (s) return s;
   shocks->book.solved = sphi_shocks_is_solved(shocks);
   s = pieces_of(shocks, &c);
-  return s ? s : sphi_checkpoint_write(&c, buffer, bytes);
+  if (!s) s = sphi_checkpoint_write(&c, buffer, bytes);
+  return s ? s : sphi_checkpoint_forget_list(shocks->list, shocks->options.dim);
 }
 
 static sph_status read_state(sph_shocks *shocks, const void *buffer, size_t bytes) {
@@ -54,6 +55,7 @@ sph_status sph_shocks_restore(sph_shocks *shocks, const void *buffer, size_t byt
   if (!s) s = sphi_shocks_check_fields(shocks);
   if (!s && shocks->book.solved) sphi_shocks_set_solved(shocks);
   if (!s) s = sphi_shocks_fill(shocks, shocks->book.time, NULL, 0);
+  if (!s) s = sphi_checkpoint_forget_list(shocks->list, shocks->options.dim);
   shocks->started = !s;
   return s;
 }

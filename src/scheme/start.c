@@ -139,12 +139,16 @@ static sph_status copy_field(sph_particles *set, int32_t from, int32_t to) {
   return sph_particles_touch(set, to);
 }
 
-/* Keep a field as reference under a name of the set's, from an earlier start if there was one. */
-static sph_status keep(sph_particles *set, int32_t from, const char *name, int32_t *to) {
-  sph_status s = SPH_OK;
-  *to = sph_particles_find_field(set, name);
-  if (*to < 0) s = sph_particles_add_field(set, name, 1, to);
-  return s ? s : copy_field(set, from, *to);
+/* A field of the set's by this name, from an earlier start if there was one. */
+static sph_status named_field(sph_particles *set, const char *name, int32_t *field) {
+  *field = sph_particles_find_field(set, name);
+  return *field < 0 ? sph_particles_add_field(set, name, 1, field) : SPH_OK;
+}
+
+sph_status sphi_scheme_reference_fields(sph_elastodynamics *solid) {
+  if (solid->options.h_law != SPH_H_LAW_DENSITY) return SPH_OK;
+  sph_status s = named_field(solid->set, "h_reference", &solid->h0_field);
+  return s ? s : named_field(solid->set, "rho_reference", &solid->rho0_field);
 }
 
 static double smallest(const sph_elastodynamics *solid, int32_t field) {
@@ -167,8 +171,14 @@ static sph_status fill_fields(sph_elastodynamics *solid, double *speed) {
   if (!s) s = sphi_scheme_h_from_spacing(solid);
   if (!s) s = copy_field(set, SPH_FIELD_X, SPH_FIELD_X0);
   if (s || solid->options.h_law != SPH_H_LAW_DENSITY) return s;
-  s = keep(set, SPH_FIELD_H, "h_reference", &solid->h0_field);
-  return s ? s : keep(set, SPH_FIELD_RHO, "rho_reference", &solid->rho0_field);
+  s = sphi_scheme_reference_fields(solid);
+  if (!s) s = copy_field(set, SPH_FIELD_H, solid->h0_field);
+  return s ? s : copy_field(set, SPH_FIELD_RHO, solid->rho0_field);
+}
+
+sph_status sphi_scheme_extent(sph_elastodynamics *solid, double *spacing, double *speed) {
+  *spacing = smallest(solid, SPH_FIELD_SPACING);
+  return fill_speed(solid, speed);
 }
 
 sph_status sph_elastodynamics_start(sph_elastodynamics *solid, double t) {

@@ -1,6 +1,7 @@
 /* Total-Lagrangian elasticity, composed of public pieces; only the handle itself (its memory and
  * error sentences) uses the services of core. */
 #include "../core/core.h"
+#include "checkpoint.h"
 
 #include <sph/correction.h>
 #include <sph/integrator.h>
@@ -243,6 +244,12 @@ static sph_status set_reference(sph_total_lagrangian *tl, sph_particles *set) {
   return sph_particles_touch(set, SPH_FIELD_X0);
 }
 
+static sph_status build_list(sph_total_lagrangian *tl, const sph_particles *set) {
+  return sph_neighbors_build_arrays(tl->list, tl->options.dim, sph_particles_count(set),
+                                    sph_particles_field_const(set, SPH_FIELD_X0),
+                                    sph_particles_field_const(set, SPH_FIELD_H), 0.0);
+}
+
 sph_status sph_total_lagrangian_start(sph_total_lagrangian *tl, sph_particles *set) {
   sph_status s = check_set(tl, set);
   if (!s) s = check_masses(tl, set);
@@ -254,10 +261,7 @@ sph_status sph_total_lagrangian_start(sph_total_lagrangian *tl, sph_particles *s
   if (!s) /* M and RHO may have been written by the host */
     s = sph_particles_touch(set, SPH_FIELD_M);
   if (!s) s = sph_particles_touch(set, SPH_FIELD_RHO);
-  if (!s)
-    s = sph_neighbors_build_arrays(tl->list, tl->options.dim, sph_particles_count(set),
-                                   sph_particles_field_const(set, SPH_FIELD_X0),
-                                   sph_particles_field_const(set, SPH_FIELD_H), 0.0);
+  if (!s) s = build_list(tl, set);
   if (!s) tl->started = set;
   return s;
 }
@@ -399,6 +403,71 @@ sph_status sph_total_lagrangian_step(sph_total_lagrangian *tl, sph_particles *se
   if (!tl->integrator) return step_leapfrog(tl, set, t, dt);
   tl->set = NULL;
   return sph_integrator_step(tl->integrator, set, t, dt, NULL);
+}
+
+/* ---- checkpoints
+ * -------------------------------------------------------------------------------- */
+
+/* What the leapfrog knows about the acceleration that it carried over. */
+typedef struct carried {
+  double t, slack;
+  int64_t known;
+} carried;
+
+static const int32_t kept[] = {SPH_FIELD_X, SPH_FIELD_V,   SPH_FIELD_X0, SPH_FIELD_H,
+                               SPH_FIELD_M, SPH_FIELD_RHO, SPH_FIELD_C};
+enum { KEPT = sizeof kept / sizeof *kept };
+
+static sph_status pieces_of(sph_total_lagrangian *tl, sph_particles *set, carried *a,
+                            sphi_checkpoint *c) {
+  const size_t n = (size_t)sph_particles_real_count(set) * (size_t)tl->options.dim;
+  sph_status s = sphi_buffer_reserve(tl->base.ctx, &tl->rates, sphi_mul(n, sizeof(double)));
+  *c = (sphi_checkpoint){.ctx = tl->base.ctx,
+                         .name = "total_lagrangian",
+                         .kind = SPHI_MAGIC_TOTAL_LAGRANGIAN,
+                         .set = set,
+                         .integrator = tl->integrator};
+  *a = (carried){tl->t, tl->slack, remembered(tl, set, tl->t)};
+  sphi_checkpoint_add(c, a, sizeof *a);
+  if (!tl->integrator) sphi_checkpoint_add(c, tl->rates.ptr, sphi_mul(n, sizeof(double)));
+  for (int k = 0; !s && k < KEPT; ++k) s = sphi_checkpoint_field(c, kept[k]);
+  return s;
+}
+
+sph_status sph_total_lagrangian_state_size(sph_total_lagrangian *tl, sph_particles *set,
+                                           size_t *bytes) {
+  sphi_checkpoint c;
+  carried a;
+  sph_status s = check_started(tl, set);
+  if (!s) s = pieces_of(tl, set, &a, &c);
+  return s ? s : sphi_checkpoint_size(&c, bytes);
+}
+
+sph_status sph_total_lagrangian_save(sph_total_lagrangian *tl, sph_particles *set, void *buffer,
+                                     size_t bytes) {
+  sphi_checkpoint c;
+  carried a;
+  sph_status s = check_started(tl, set);
+  if (!s) s = pieces_of(tl, set, &a, &c);
+  return s ? s : sphi_checkpoint_write(&c, buffer, bytes);
+}
+
+sph_status sph_total_lagrangian_restore(sph_total_lagrangian *tl, sph_particles *set,
+                                        const void *buffer, size_t bytes) {
+  sphi_checkpoint c;
+  carried a;
+  sph_status s = check_set(tl, set);
+  if (s) return s;
+  tl->set = tl->started = NULL;
+  s = pieces_of(tl, set, &a, &c);
+  if (!s) s = sphi_checkpoint_read(&c, buffer, bytes);
+  for (int k = 0; !s && k < KEPT; ++k) s = sph_particles_touch(set, kept[k]);
+  if (!s) s = build_list(tl, set);
+  if (s) return s;
+  tl->started = set;
+  if (a.known) remember(tl, set, a.t, 0.0);
+  tl->slack = a.slack;
+  return SPH_OK;
 }
 
 /* ---- energies

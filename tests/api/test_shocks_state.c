@@ -50,7 +50,8 @@ static void check_restart(int32_t dim, const sph_shocks_options *o, int32_t kind
   size_t bytes;
   sk_start(&a, o);
   go_on(&a, 5);
-  if (dim == 2) check_ok(sph_shocks_update(a.scheme)); /* lengths that are solved for stay */
+  if (o->density == SPH_SHOCKS_INTEGRAL && dim == 2)
+    check_ok(sph_shocks_update(a.scheme)); /* lengths that are solved for stay */
   void *buffer = save(&a, &bytes);
   go_on(&a, 5);
   sk_ok(&b, sk_create(&b, o));
@@ -80,6 +81,16 @@ static void test_restart(void **state) {
         check_restart(dim, &o, SK_GAS);
         check_restart(dim, &o, SK_HARDENING);
       }
+}
+
+/* A list that is kept over steps is not the same in both runs unless it is built anew. */
+static void test_verlet(void **state) {
+  (void)state;
+  sph_shocks_options o = sk_options(2);
+  o.neighbors = SPH_NEIGHBORS_VERLET;
+  o.adaptive = 0;
+  o.skin = 0.5;
+  check_restart(2, &o, SK_HARDENING);
 }
 
 /* A saved state can be taken up again and again, by the scheme that wrote it, too. */
@@ -221,8 +232,8 @@ static void test_memory(void **state) {
 }
 
 static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(test_restart), cmocka_unit_test(test_again),
-    cmocka_unit_test(test_refused), cmocka_unit_test(test_integrator),
-    cmocka_unit_test(test_memory),
+    cmocka_unit_test(test_restart),    cmocka_unit_test(test_verlet),
+    cmocka_unit_test(test_again),      cmocka_unit_test(test_refused),
+    cmocka_unit_test(test_integrator), cmocka_unit_test(test_memory),
 };
 SPH_TEST_MAIN(tests)
