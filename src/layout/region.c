@@ -138,7 +138,8 @@ static void segment(const halving *h, const corner *a, const corner *b, int leve
 
 void sphi_segment_inside(const sphi_measure *how, double x, double lo, double hi,
                          sphi_moments *moments) {
-  halving h = {how->region, &x, moments, 0, 0};
+  const double at[2] = {x, 0.0};
+  halving h = {how->region, at, moments, 0, 0};
   const corner a = look(&h, lo, 0.0), b = look(&h, hi, 0.0);
   set_levels(&h, how, hi - lo);
   segment(&h, &a, &b, 0);
