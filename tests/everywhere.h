@@ -441,6 +441,15 @@ static sph_status ew_adapt(everywhere *w) {
   sph_neighbors_destroy(list);
   return s;
 }
+static sph_status ew_holes(everywhere *w) {
+  const double hole[3] = {0.5, 0.5, 0.25};
+  sph_hole_layout_options o;
+  sph_hole_layout_options_init(&o);
+  o.holes = 1;
+  o.hole = hole;
+  o.spacing = 0.25;
+  return sph_layout_holes(w->ctx, &o, 64, w->out, &w->number);
+}
 static sph_status ew_relax(everywhere *w) {
   const double points[6] = {0.125, 0.25, 0.375, 0.5, 0.625, 0.75};
   sph_region_options r;
@@ -578,6 +587,7 @@ static const ew_entry ew_entries[] = {
      ew_add_term, 0, 1},
     {"sph_rhs_evaluate", ew_evaluate, EW_OUTPUT, 1},
     {"sph_adapt_smoothing", ew_adapt, EW_WRITES, 1},
+    {"sph_layout_holes", ew_holes, 0, 0},
     {"sph_layout_relax", ew_relax, 0, 1},
     {"sph_layout_materials", ew_materials, 0, 1},
     {"sph_h_from_mass", ew_h_mass, 0, 0},
