@@ -52,9 +52,11 @@ static void rectangle(sphi_polygon *polygon, double x0, double x1, double y0, do
 
 /* ---- 1-D --------------------------------------------------------------------------------- */
 
-static void interval(const sph_region_options *region, const double *x, int64_t mates,
+static void interval(const sphi_measure *how, const double *x, int64_t mates,
                      const sphi_cell_room *room, double *reach, sphi_moments *moments) {
-  double lo = region->lo[0] - x[0], hi = region->hi[0] - x[0];
+  const sph_region_options *region = how->region;
+  double lo = fmax(region->lo[0] - x[0], -how->limit);
+  double hi = fmin(region->hi[0] - x[0], how->limit);
   for (int64_t k = 0; k < mates; ++k) {
     const double middle = 0.5 * room->mates[k].d[0];
     if (middle < 0.0) lo = fmax(lo, middle);
@@ -64,7 +66,7 @@ static void interval(const sph_region_options *region, const double *x, int64_t 
   if (region->inside == NULL)
     sphi_add_segment(moments, lo, hi);
   else
-    sphi_segment_inside(region, x[0], lo, hi, moments);
+    sphi_segment_inside(how, x[0], lo, hi, moments);
 }
 
 /* ---- 2-D --------------------------------------------------------------------------------- */
@@ -83,26 +85,28 @@ static double area_of_holes(const sph_region_options *region, const double *x,
   return area;
 }
 
-static void measure_polygon(const sph_region_options *region, const double *x,
-                            const sphi_polygon *polygon, double reach, int all,
-                            sphi_moments *moments) {
+static void measure_polygon(const sphi_measure *how, const double *x, const sphi_polygon *polygon,
+                            double reach, int all, sphi_moments *moments) {
+  const sph_region_options *region = how->region;
   const double zero[2] = {0.0, 0.0};
   int cut = 0;
   if (region->inside != NULL) {
-    sphi_polygon_inside(region, x, polygon, moments);
+    sphi_polygon_inside(how, x, polygon, moments);
     return;
   }
   const double area = sphi_polygon_area(polygon) - area_of_holes(region, x, polygon, reach, &cut);
-  if (all && cut) sphi_polygon_inside(region, x, polygon, moments);
+  if (all && cut) sphi_polygon_inside(how, x, polygon, moments);
   for (int64_t k = 0; all && !cut && k < polygon->n; ++k)
     sphi_add_triangle(moments, zero, polygon->p[k], polygon->p[k + 1 < polygon->n ? k + 1 : 0]);
   moments->volume = fmax(0.0, area);
 }
 
-static void polygon_cell(const sph_region_options *region, const double *x, int64_t mates, int all,
+static void polygon_cell(const sphi_measure *how, const double *x, int64_t mates, int all,
                          sphi_cell_room *room, double *reach, sphi_moments *moments) {
-  rectangle(&room->a, region->lo[0] - x[0], region->hi[0] - x[0], region->lo[1] - x[1],
-            region->hi[1] - x[1]);
+  const sph_region_options *region = how->region;
+  const double most = how->limit;
+  rectangle(&room->a, fmax(region->lo[0] - x[0], -most), fmin(region->hi[0] - x[0], most),
+            fmax(region->lo[1] - x[1], -most), fmin(region->hi[1] - x[1], most));
   *reach = reach_of(&room->a);
   for (int64_t k = 0; k < mates; ++k) {
     const sphi_mate *mate = &room->mates[k];
@@ -112,7 +116,7 @@ static void polygon_cell(const sph_region_options *region, const double *x, int6
     swap(room);
     *reach = reach_of(&room->a);
   }
-  measure_polygon(region, x, &room->a, *reach, all, moments);
+  measure_polygon(how, x, &room->a, *reach, all, moments);
 }
 
 /* ---- 3-D --------------------------------------------------------------------------------- */
@@ -204,13 +208,13 @@ static void polyhedron_cell(const sph_region_options *region, const double *x, i
   *reach = most;
 }
 
-void sphi_cell_measure(const sph_region_options *region, const double *x, int64_t mates, int all,
+void sphi_cell_measure(const sphi_measure *how, const double *x, int64_t mates, int all,
                        sphi_cell_room *room, double *reach, sphi_moments *moments) {
   *moments = (sphi_moments){0.0, {0.0, 0.0, 0.0}, 0.0};
-  if (region->dim == 1)
-    interval(region, x, mates, room, reach, moments);
-  else if (region->dim == 2)
-    polygon_cell(region, x, mates, all, room, reach, moments);
+  if (how->region->dim == 1)
+    interval(how, x, mates, room, reach, moments);
+  else if (how->region->dim == 2)
+    polygon_cell(how, x, mates, all, room, reach, moments);
   else
-    polyhedron_cell(region, x, mates, all, room, reach, moments);
+    polyhedron_cell(how->region, x, mates, all, room, reach, moments);
 }

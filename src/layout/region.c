@@ -79,6 +79,7 @@ typedef struct halving {
   const sph_region_options *region;
   const double *x;
   sphi_moments *sum;
+  int always, last; /* levels */
 } halving;
 
 int sphi_in_region(const sph_region_options *region, const double *at) {
@@ -111,13 +112,19 @@ static corner crossing(const halving *h, const corner *a, const corner *b) {
   return (corner){{a->p[0] + t * (b->p[0] - a->p[0]), a->p[1] + t * (b->p[1] - a->p[1])}, 1};
 }
 
-/* Corners alone do not tell about the middle of what is large: the first two levels always split.
- */
-enum { ALWAYS = 2 };
+/* Corners alone do not tell about the middle of what is large: pieces larger than a quarter of the
+ * spacing always split. Cells that reach far beyond the region need more levels than others. */
+static void set_levels(halving *h, const sphi_measure *how, double size) {
+  enum { ALWAYS = 2, MOST = 20 };
+  int more = 0;
+  for (; more < MOST && size > 2.0 * how->spacing; size *= 0.5) ++more;
+  h->always = ALWAYS + more;
+  h->last = how->levels + more;
+}
 
 static void segment(const halving *h, const corner *a, const corner *b, int level) {
-  const int last = level >= h->region->levels;
-  if (a->inside == b->inside && (last || level >= ALWAYS)) {
+  const int last = level >= h->last;
+  if (a->inside == b->inside && (last || level >= h->always)) {
     if (a->inside) sphi_add_segment(h->sum, a->p[0], b->p[0]);
   } else if (last) {
     const corner end = crossing(h, a, b);
@@ -129,10 +136,12 @@ static void segment(const halving *h, const corner *a, const corner *b, int leve
   }
 }
 
-void sphi_segment_inside(const sph_region_options *region, double x, double lo, double hi,
+void sphi_segment_inside(const sphi_measure *how, double x, double lo, double hi,
                          sphi_moments *moments) {
-  const halving h = {region, &x, moments};
+  const double at[2] = {x, 0.0};
+  halving h = {how->region, at, moments, 0, 0};
   const corner a = look(&h, lo, 0.0), b = look(&h, hi, 0.0);
+  set_levels(&h, how, hi - lo);
   segment(&h, &a, &b, 0);
 }
 
@@ -152,8 +161,8 @@ static void cut_triangle(const halving *h, const corner *c) {
 
 static void triangle(const halving *h, const corner *c, int level) {
   const int all = c[0].inside == c[1].inside && c[1].inside == c[2].inside;
-  const int last = level >= h->region->levels;
-  if (all && (last || level >= ALWAYS)) {
+  const int last = level >= h->last;
+  if (all && (last || level >= h->always)) {
     if (c[0].inside) sphi_add_triangle(h->sum, c[0].p, c[1].p, c[2].p);
     return;
   }
@@ -168,13 +177,17 @@ static void triangle(const halving *h, const corner *c, int level) {
   for (int k = 0; k < 4; ++k) triangle(h, part[k], level + 1);
 }
 
+static double length(const double *a, const double *b) { return hypot(b[0] - a[0], b[1] - a[1]); }
+
 /* A fan of triangles from the particle, which lies in its cell. */
-void sphi_polygon_inside(const sph_region_options *region, const double *x,
-                         const sphi_polygon *polygon, sphi_moments *moments) {
-  const halving h = {region, x, moments};
+void sphi_polygon_inside(const sphi_measure *how, const double *x, const sphi_polygon *polygon,
+                         sphi_moments *moments) {
+  const double zero[2] = {0.0, 0.0};
+  halving h = {how->region, x, moments, 0, 0};
   for (int64_t k = 0; k < polygon->n; ++k) {
     const double *p = polygon->p[k], *q = polygon->p[k + 1 < polygon->n ? k + 1 : 0];
     const corner fan[3] = {look(&h, 0.0, 0.0), look(&h, p[0], p[1]), look(&h, q[0], q[1])};
+    set_levels(&h, how, fmax(length(p, q), fmax(length(zero, p), length(zero, q))));
     triangle(&h, fan, 0);
   }
 }

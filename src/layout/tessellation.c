@@ -74,9 +74,10 @@ static int64_t measure(sphi_tessellation *job, int64_t i, sphi_cell_room *room) 
     const int64_t mates = gather(job, i, radius, room, &found);
     if (mates < 0) return found;
     if (job->coincident < INT64_MAX) return 0;
+    const double limit = job->limit > 0.0 ? job->limit : INFINITY;
+    const sphi_measure how = {job->region, job->spacing, job->levels, limit};
     sphi_moments moments;
-    sphi_cell_measure(job->region, job->x + i * job->region->dim, mates, job->all, room, &reach,
-                      &moments);
+    sphi_cell_measure(&how, job->x + i * job->region->dim, mates, job->all, room, &reach, &moments);
     if (radius > 2.0 * reach || radius > job->diagonal) {
       job->cell[i] = moments;
       return 0;
