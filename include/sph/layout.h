@@ -126,7 +126,7 @@ SPH_API sph_status sph_layout_jitter(sph_context *ctx, int32_t dim, double ampli
                                      sph_inside_fn inside, void *inside_user, int64_t n, double *x);
 
 /* The region that the particles share: a box, less disjoint circular holes (2-D), less what is not
- * `inside` (1-D, 2-D). Holes may be cut by the faces of the box. */
+ * `inside`. Holes may be cut by the faces of the box. */
 typedef struct sph_region_options {
   size_t size;          /* set by sph_region_options_init() */
   int32_t dim;          /* 1, 2 or 3; must be given */
@@ -147,11 +147,12 @@ SPH_API void sph_region_options_init_sized(sph_region_options *options, size_t s
  * neighbours, nearest first, until none that is left could reach it. volumes: n, the host's.
  *
  * They add up to the measure of the region. A box, and a box with circular holes: exact, the sum to
- * 1e-12 relative. With `inside` the cells are halved `levels` times and what is left is cut
- * straight between the points where its edges cross the boundary (found by bisection, to 1e-9 of an
- * edge): for a smooth boundary of radius R and cells of size s the sum errs by about L (s /
- * 2^levels)^2 / (12 R), L its length; parts of the region thinner than s / 4 may be missed. What is
- * nearest to a particle is its own even across a hole or a slit.
+ * 1e-12 relative. With `inside` the cells are halved `levels` times (long ones more, down to the
+ * mean spacing s first) and what is left is cut straight between the points where its edges cross
+ * the boundary (found by bisection, to 1e-9 of an edge): for a smooth boundary of radius R the sum
+ * errs by about L (s / 2^levels)^2 / (12 R), L its length; in 3-D likewise with its area, and each
+ * level costs four times the one before: take 1 to 3. Parts of the region thinner than s / 4 may be
+ * missed. What is nearest to a particle is its own even across a hole or a slit.
  *
  * For particles on a plane of symmetry, of which the model has one side, double the volume.
  *
@@ -160,7 +161,7 @@ SPH_API void sph_region_options_init_sized(sph_region_options *options, size_t s
  * context's threads, same bits for any number of them.
  * SPH_ERR_ARG: an option out of range, not finite or not for this dim, holes that overlap (named),
  * n negative, an array NULL with n > 0, a particle not finite, outside the box, or at the same
- * place as another (the first is named). SPH_ERR_UNSUPPORTED: `inside` in 3-D. SPH_ERR_VERSION,
+ * place as another (the first is named). SPH_ERR_VERSION,
  * SPH_ERR_NOMEM. volumes are untouched then. Since 0.1. */
 SPH_API sph_status sph_layout_volumes(sph_context *ctx, const sph_region_options *options,
                                       int64_t n, const double *x, double *volumes);
@@ -197,7 +198,7 @@ SPH_API void sph_relax_result_init_sized(sph_relax_result *result, size_t size);
  * nor is the layout found the best there is. Zisis (section 4.4) names this layout for arbitrary
  * shapes and does not describe it.
  *
- * region: 3-D without `inside`. x: n * dim, in place, all of them within the region. volumes: NULL,
+ * x: n * dim, in place, all of them within the region. volumes: NULL,
  * or n, receives the volumes of the cells as sph_layout_volumes() gives them. options NULL:
  * defaults. result: NULL, or initialised. The energy falls in every iteration, but for what halving
  * misses where `inside` or holes cut cells (`levels`). A particle that would leave the region goes
@@ -218,8 +219,7 @@ typedef int32_t (*sph_phase_fn)(void *user, const double *point);
 
 /* How a phase is filled: with a lattice SPH_LATTICE_* of its own, or
  *   RELAXED   by sph_layout_relax() from a hexagonal lattice, of which as many particles are
- *             dropped or added as the volume of the phase asks for. 1-D and 2-D; 3-D where `phase`
- *             is NULL. */
+ *             dropped or added as the volume of the phase asks for */
 enum { SPH_LAYOUT_RELAXED = 3 };
 
 /* What particles of different phases have in common, Zisis section 4.4 (a) and (b):
@@ -246,7 +246,7 @@ typedef struct sph_material_layout_options {
                           * fit their edges is better made several phases */
   sph_phase_fn phase;    /* NULL: each phase fills its own box (without boxes: the one phase all) */
   void *phase_user;
-  int32_t levels;                 /* of halving, RELAXED: as in sph_region_options; default 5 */
+  int32_t levels;                 /* of halving, RELAXED: as in sph_region_options; default 3 */
   const sph_relax_options *relax; /* RELAXED; NULL: its defaults */
 } sph_material_layout_options;
 /* Fill *options with the defaults. Since 0.1. */
@@ -268,7 +268,7 @@ SPH_API void sph_material_layout_options_init_sized(sph_material_layout_options 
  *
  * SPH_ERR_ARG: an option out of range or not finite (named), phases without `phase` and boxes,
  * capacity negative, an array NULL, a phase beyond `phases` (named). SPH_ERR_LIMIT: more than
- * capacity, or 2^31 - 64. SPH_ERR_UNSUPPORTED: RELAXED in 3-D with `phase`. SPH_ERR_VERSION,
+ * capacity, or 2^31 - 64. SPH_ERR_VERSION,
  * SPH_ERR_NOMEM. Outputs are untouched then. O(points of the lattices), RELAXED as above. Same bits
  * for any number of threads. Since 0.1. */
 SPH_API sph_status sph_layout_materials(sph_context *ctx,

@@ -39,8 +39,7 @@ typedef struct sphi_measure {
   const sph_region_options *region;
   double spacing;
   int32_t levels;
-  double
-      limit; /* 1-D, 2-D: what lies farther than this along an axis is no one's; infinity: none */
+  double limit; /* what lies farther than this along an axis is no one's; infinity: none */
 } sphi_measure;
 
 /* The cell of a particle at x against `mates` sorted by distance. Moments but the volume are 0
@@ -60,6 +59,9 @@ double sphi_polygon_area(const sphi_polygon *polygon);
 double sphi_polygon_in_disc(const sphi_polygon *polygon, const double *centre, double radius);
 void sphi_polygon_inside(const sphi_measure *how, const double *x, const sphi_polygon *polygon,
                          sphi_moments *moments);
+/* Of the tetrahedron of the particle, which lies in its cell, and a, b, c. */
+void sphi_tetrahedron_inside(const sphi_measure *how, const double *x, const double *a,
+                             const double *b, const double *c, sphi_moments *moments);
 void sphi_segment_inside(const sphi_measure *how, double x, double lo, double hi,
                          sphi_moments *moments);
 

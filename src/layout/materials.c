@@ -14,7 +14,7 @@ void sph_material_layout_options_init_sized(sph_material_layout_options *options
                                                 .equal = SPH_EQUAL_MASS,
                                                 .hi = {1.0, 1.0, 1.0},
                                                 .phases = 1,
-                                                .levels = 5};
+                                                .levels = 3};
   sphi_options_init(options, size, &defaults, sizeof defaults);
 }
 
@@ -52,9 +52,6 @@ static sph_status check(sph_context *ctx, const sph_material_layout_options *o) 
     return sphi_fail(ctx, SPH_ERR_ARG, "%s: the spacing is %g", function, o->spacing);
   if (o->levels < 0 || o->levels > 12)
     return sphi_fail(ctx, SPH_ERR_ARG, "%s: levels is %d, not 0..12", function, (int)o->levels);
-  if (o->kind == SPH_LAYOUT_RELAXED && o->dim == 3 && o->phase != NULL)
-    return sphi_fail(ctx, SPH_ERR_UNSUPPORTED, "%s: RELAXED with `phase` is for 1-D and 2-D",
-                     function);
   return check_phases(ctx, o);
 }
 
@@ -169,8 +166,9 @@ static double hexagonal_spacing(int32_t dim, double v) {
 
 /* Every point of a phase that is filled with a lattice lies closer than that to a particle. */
 static sphi_relax_limits limits_of(const filling *f) {
-  enum { LEVELS = 2, REACH = 2 };
-  const int32_t levels = f->o->levels < LEVELS ? f->o->levels : LEVELS;
+  enum { REACH = 2 };
+  const int32_t coarse = f->o->dim == 3 ? 0 : 2;
+  const int32_t levels = f->o->levels < coarse ? f->o->levels : coarse;
   return (sphi_relax_limits){levels, REACH * f->spacing};
 }
 

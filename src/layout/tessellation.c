@@ -170,8 +170,6 @@ sph_status sphi_check_region(sph_context *ctx, const char *function, const sph_r
                      (int)o->dim);
   if (o->levels < 0 || o->levels > 12)
     return sphi_fail(ctx, SPH_ERR_ARG, "%s: levels is %d, not 0..12", function, (int)o->levels);
-  if (o->inside != NULL && o->dim == 3)
-    return sphi_fail(ctx, SPH_ERR_UNSUPPORTED, "%s: inside is for 1-D and 2-D", function);
   return SPH_OK;
 }
 

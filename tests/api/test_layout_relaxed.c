@@ -116,9 +116,10 @@ static int32_t in_triangle(void *user, const double *p) {
 static void test_centroids(void **state) {
   (void)state;
   sph_context *ctx = context_of(1);
-  sph_relax_options o = relax_of(200, 1e-12);
+  sph_relax_options o = relax_of(20, 1e-12);
   sph_relax_result result;
   double x[3] = {0.3, 0.2, 0.7}, v[1];
+  o.relaxation = 1.0;
   sph_region_options r = box_of(2);
   r.lo[0] = r.lo[1] = -1.0;
   r.levels = 9;
@@ -150,6 +151,52 @@ static void test_centroids(void **state) {
   check_ok(relax(ctx, &r, &o, 1, (x[0] = 1.9, x), v, &result));
   for (int a = 0; a < 3; a++) check_close(x[a], a == 0 ? 1.0 : 0.5, 1e-11);
   check_rel(result.energy, 2.0 * (4.0 + 1.0 + 1.0) / 12.0, 1e-12);
+  sph_context_destroy(ctx);
+}
+
+static int32_t in_ball(void *user, const double *p) {
+  (void)user;
+  return p[0] * p[0] + p[1] * p[1] + p[2] * p[2] < 1.0;
+}
+
+/* Half a ball: 3/8 of the radius above its base, int |y - c|^2 = 2 pi/5 - 2 pi/3 (3/8)^2; and the
+ * ball shared by a lattice: the error of the sum falls by four with each level. */
+static void test_ball(void **state) {
+  (void)state;
+  sph_context *ctx = context_of(1);
+  sph_region_options r = box_of(3);
+  sph_relax_options o = relax_of(12, 0.0);
+  sph_relax_result result;
+  double x[3] = {0.2, 0.1, 0.3}, v[1], error[3];
+  r.lo[0] = r.lo[1] = -1.0;
+  r.inside = in_ball;
+  r.levels = 4;
+  o.relaxation = 1.0;
+  check_ok(relax(ctx, &r, &o, 1, x, v, &result));
+  check_rel(v[0], 2.0 * pi / 3.0, 3e-3);
+  check_close(x[0], 0.0, 2e-3);
+  check_close(x[1], 0.0, 2e-3);
+  check_close(x[2], 0.375, 2e-3);
+  check_rel(result.energy, 2.0 * pi / 5.0 - 2.0 * pi / 3.0 * 9.0 / 64.0, 6e-3);
+  sph_lattice_options l;
+  sph_lattice_options_init(&l);
+  l.dim = 3;
+  l.spacing = 0.5;
+  l.inside = in_ball;
+  for (int a = 0; a < 3; a++) l.lo[a] = r.lo[a] = -1.0;
+  double lattice[3 * 64], volume[64];
+  int64_t n = 0;
+  check_ok(sph_layout_lattice(ctx, &l, 64, lattice, &n));
+  for (int level = 0; level < 3; level++) {
+    double sum = 0.0;
+    r.levels = 1 + level;
+    check_ok(sph_layout_volumes(ctx, &r, n, lattice, volume));
+    for (int64_t i = 0; i < n; i++) sum += volume[i];
+    error[level] = fabs(sum - 4.0 * pi / 3.0);
+  }
+  check_close(error[1] / error[0], 0.25, 0.1);
+  check_close(error[2] / error[1], 0.25, 0.1);
+  assert_true(error[2] < 0.02);
   sph_context_destroy(ctx);
 }
 
@@ -443,7 +490,9 @@ static void test_relaxed_materials(void **state) {
   (void)state;
   sph_context *ctx = context_of(2);
   for (int32_t equal = 1; equal <= 2; equal++) {
+    sph_relax_options moderate = relax_of(check_long_run ? 100 : 40, 0.0);
     sph_material_layout_options o = materials_of(2, SPH_LAYOUT_RELAXED, equal, 0.04);
+    o.relax = &moderate;
     o.phases = 3;
     o.density = three;
     o.phase = disc_and_wall;
@@ -508,6 +557,39 @@ static void test_few(void **state) {
   sph_context_destroy(ctx);
 }
 
+/* A ball in a box, in 3-D: numbers, volumes, places. */
+static int32_t ball_in_box(void *user, const double *p) {
+  (void)user;
+  return hypot(hypot(p[0] - 0.5, p[1] - 0.5), p[2] - 0.5) < 0.4 ? 0 : 1;
+}
+
+static void test_ball_in_box(void **state) {
+  (void)state;
+  sph_context *ctx = context_of(2);
+  const double density[2] = {4.0, 1.0}, ball = 4.0 * pi / 3.0 * 0.064;
+  sph_relax_options few = relax_of(check_long_run ? 50 : 2, 0.0);
+  sph_material_layout_options o = materials_of(3, SPH_LAYOUT_RELAXED, SPH_EQUAL_MASS, 0.2);
+  o.phases = 2;
+  o.density = density;
+  o.phase = ball_in_box;
+  o.relax = &few;
+  o.levels = 1;
+  layout l = make_layout(ctx, &o);
+  double sum[2] = {0.0, 0.0}, count[2] = {0.0, 0.0};
+  for (int64_t i = 0; i < l.n; i++) {
+    assert_int_equal(ball_in_box(NULL, l.x + 3 * i), l.phase[i]);
+    assert_true(l.v[i] > 0.0);
+    sum[l.phase[i]] += l.v[i];
+    count[l.phase[i]] += 1.0;
+  }
+  check_rel(sum[0], ball, 0.02);
+  check_rel(sum[1], 1.0 - ball, 0.02);
+  check_close(count[0], ball * 4.0 / 0.008, 3.0);
+  check_close(count[1], (1.0 - ball) / 0.008, 3.0);
+  free_layout(&l);
+  sph_context_destroy(ctx);
+}
+
 /* ---- refusals ---------------------------------------------------------------------------- */
 
 static void said(sph_context *ctx, const char *words) {
@@ -533,7 +615,6 @@ static void test_relax_refusals(void **state) {
   BAD(o.relaxation = 2.0, SPH_ERR_ARG, "relaxation = 2");
   BAD(o.relaxation = 0.0, SPH_ERR_ARG, "relaxation = 0");
   BAD(r.dim = 4, SPH_ERR_ARG, "dim is 4");
-  BAD((r.dim = 3, r.inside = in_ring), SPH_ERR_UNSUPPORTED, "inside");
   BAD(r.inside = in_triangle, SPH_ERR_ARG, "particle 0 is not in the region");
   BAD(r.hi[0] = 0.7, SPH_ERR_ARG, "particle 1");
 #undef BAD
@@ -578,7 +659,7 @@ static void test_material_refusals(void **state) {
   BAD((o.phases = 2, o.boxes = bad_box), SPH_ERR_ARG, "axis 0");
   BAD((o.phases = 2, o.phase = seventh), SPH_ERR_ARG, "answers 7, there are 2");
   BAD((o.kind = 3, o.phases = 2, o.phase = seventh), SPH_ERR_ARG, "answers 7, there are 2");
-  BAD((o.dim = 3, o.kind = 3, o.phase = seventh), SPH_ERR_UNSUPPORTED, "RELAXED");
+  BAD((o.dim = 3, o.kind = 3, o.phases = 2, o.phase = seventh), SPH_ERR_ARG, "answers 7");
   BAD(o.relax = &relaxation, SPH_ERR_ARG, "iterations = -1");
 #undef BAD
   for (int k = 0; k < 200; k++) v[k] = 7.0;
@@ -633,6 +714,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_lattice),
     cmocka_unit_test(test_centroids),
     cmocka_unit_test(test_sampling),
+    cmocka_unit_test(test_ball),
     cmocka_unit_test(test_energy_falls),
     cmocka_unit_test(test_quality),
     cmocka_unit_test(test_threads),
@@ -641,6 +723,7 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_equal_masses),
     cmocka_unit_test(test_relaxed_materials),
     cmocka_unit_test(test_few),
+    cmocka_unit_test(test_ball_in_box),
     cmocka_unit_test(test_relax_refusals),
     cmocka_unit_test(test_material_refusals),
     cmocka_unit_test(test_memory),
