@@ -70,12 +70,12 @@ static double asymmetry(const plate *p) {
 }
 
 /* The whole plate without ghosts stays symmetric, and agrees with the quarter. */
-static int validate_symmetry(outcome *part) {
+static int validate_symmetry(double dp, outcome *part) {
   plate_options coarse = total, all = total;
   porous whole, quarter;
   char keys[KEYS];
   double apart = 0.0;
-  coarse.dp = all.dp = 0.05;
+  coarse.dp = all.dp = dp;
   all.whole = 1;
   porous_create(&whole, &all);
   porous_create(&quarter, &coarse);
@@ -129,10 +129,11 @@ static int validate_fine(const outcome *coarse) {
 
 static int validate(int full) {
   outcome coarse, middle;
-  int failed = validate_symmetry(&coarse) + validate_quarter(&total, &coarse, &middle);
+  int failed = validate_symmetry(0.05, &coarse) + validate_quarter(&total, &coarse, &middle);
   report_moving(&coarse);
-  if (full) failed += validate_fine(&middle);
-  return failed;
+  if (!full) return failed;
+  failed += validate_symmetry(0.025, &coarse);
+  return failed + validate_fine(&middle);
 }
 
 #endif
