@@ -21,7 +21,7 @@ static int validate_case(char which) {
   const double shock = o.exact.t * s->head[1];
   failed += tube_place(&o.t, "right_shock", tube_crossing(&o.t, o.t.p, 0.5 * (s->p + 1.0), shock),
                        shock, 1, s->rho[1]);
-  failed += tube_bound(&o.t, "energy_drift", tube_drift(&o.t), -1, 1e-6, EXACT);
+  failed += tube_bound(&o.t, "energy_drift", tube_drift(&o.t), -1, DRIFT_BOUND, EXACT);
   const tube_errors fine = o.l1;
   tube_destroy(&o.t);
   o = run(liquids(which, 1.0 / 100));

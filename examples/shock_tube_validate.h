@@ -51,6 +51,13 @@ static inline int tube_check_l1(const tube *t, const tube_errors *l1, const tube
   return failed;
 }
 
+/* The same figure, to the two digits in which it is printed. */
+static inline int tube_agree(const tube *t, const char *quantity, double measured, double printed) {
+  char keys[TUBE_KEYS];
+  return result_line(tube_keys(keys, t, quantity), measured, printed, INDEPENDENT,
+                     0.5 * pow(10.0, floor(log10(printed)) - 1.0), 0);
+}
+
 /* P/P* - 1 at a contact within [low, high] per cent. */
 static inline int tube_check_contact(const tube *t, tube_range contact, double low, double high,
                                      const char *source) {
@@ -62,6 +69,9 @@ static inline void tube_report_contact(const tube *t, tube_range contact, double
   tube_report(t, "contact_high_percent", contact.highest, high, source, reason);
   tube_report(t, "contact_low_percent", contact.lowest, low, source, reason);
 }
+
+/* What shocks.h says of the default cfl. */
+#define DRIFT_BOUND 1e-5
 
 /* What the steps change the total energy by, less what moving walls do, relative. */
 static inline double tube_drift(const tube *t) {
