@@ -253,6 +253,33 @@ static int validate_better(void) {
   return failed;
 }
 
+/* As many as the support reaches, beyond each end. */
+static void add_ghosts(bar *b) {
+  b->ghosts = (int)ceil(2.0 * b->o.h_ratio);
+  need(b->ctx, sph_particles_add_ghosts(b->set, 2 * b->ghosts, NULL));
+}
+
+/* Prepare hook: ghosts mirror the particles next to each end, first all of the loaded end. There
+ * the stress is -load in the middle between particle and ghost; at the fixed one the velocity 0. */
+static int32_t mirror_ends(void *user, double t, sph_particles *set, const sph_rate *rates,
+                           int32_t count) {
+  bar *b = user;
+  (void)t;
+  (void)rates;
+  (void)count;
+  const double free_end = b->x[0] - 0.5 * b->dp;
+  for (int k = 0; k < b->ghosts; ++k) {
+    const int left = b->o.n + k, right = left + b->ghosts, mirrored = b->o.n - 1 - k;
+    b->x[left] = 2.0 * free_end - b->x[k];
+    b->v[left] = b->v[k];
+    b->sigma[left] = -2.0 * load - b->sigma[k];
+    b->x[right] = 2.0 * length - b->x[mirrored];
+    b->v[right] = -b->v[mirrored];
+    b->sigma[right] = b->sigma[mirrored];
+  }
+  return sph_particles_touch(set, SPH_FIELD_X);
+}
+
 /* The form as printed, with ghosts that carry the load. */
 static void report_summed(void) {
   for (int k = 0; k < ENTRIES; ++k) {

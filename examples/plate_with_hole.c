@@ -110,14 +110,15 @@ static int32_t load_and_damp(void *user, double t, sph_particles *set, const sph
 
 /* ---- running ----------------------------------------------------------------------------- */
 
-static void loaded_create(loaded_plate *l, const run_options *o, int32_t form, double artificial) {
+static void loaded_create(loaded_plate *l, const run_options *o, int32_t form, double viscosity,
+                          double artificial) {
   const plate_options common = {.holes = 1,
                                 .hole = l->hole,
                                 .layout = o->layout,
                                 .dp = o->dp,
                                 .constant_mass = o->constant_mass,
                                 .h_ratio = o->h_ratio,
-                                .viscosity = 2.5,
+                                .viscosity = viscosity,
                                 .form = form,
                                 .artificial = artificial,
                                 .hourglass = 0.1,
@@ -216,7 +217,7 @@ static const char picture[] =
 
 static outcome run_once(const run_options *o, int files) {
   loaded_plate l;
-  loaded_create(&l, o, SPH_STRESS_CONSERVATIVE, o->motion == PLATE_LINEAR ? 0.0 : 0.3);
+  loaded_create(&l, o, SPH_STRESS_CONSERVATIVE, 2.5, o->motion == PLATE_LINEAR ? 0.0 : 0.3);
   double *work = malloc(3 * (size_t)l.p.n * sizeof *work);
   if (!work) exit(2);
   const outcome r = run(&l, work, work + l.p.n, work + 2 * l.p.n);

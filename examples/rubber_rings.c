@@ -108,7 +108,8 @@ static void make_contact(rings *s) {
   if (!s->push) exit(2);
 }
 
-static void rings_create(rings *s, int layers) {
+/* audit: with the scheme's ledger, which takes the contact as the work of a hook. */
+static void rings_create(rings *s, int layers, int audit) {
   sph_material *rubber;
   sph_hyperelastic_options law;
   sph_hyperelastic_options_init(&law);
@@ -119,6 +120,7 @@ static void rings_create(rings *s, int layers) {
   sph_total_lagrangian_options options;
   sph_total_lagrangian_options_init(&options);
   options.dim = 2;
+  options.audit = audit;
   *s = (rings){.dp = (outer - inner) / layers};
   need(NULL, sph_context_create(NULL, &s->ctx));
   need(s->ctx, sph_material_create_hyperelastic(s->ctx, &law, &rubber));
@@ -175,7 +177,7 @@ static int demo(int layers) {
   rings s;
   double dt;
   FILE *positions = open_output("rubber_rings_x.csv"), *csv = open_output("rubber_rings.csv");
-  rings_create(&s, layers);
+  rings_create(&s, layers, 0);
   need(s.ctx, sph_total_lagrangian_time_step(s.tl, s.set, &dt));
   const int64_t steps = (int64_t)ceil(duration / dt);
   fprintf(csv, "t,v\n");

@@ -8,8 +8,10 @@
  * both ends the outer regions go on for `frozen`, particles that keep what they have; 0: free ends,
  * right where the pressure is 0.
  *
- * Figures: L1 is the mean of |numerical - exact| over the particles in a window. "Contact" is the
- * largest and the smallest of P/P* - 1 over the 25 particles around a contact, in per cent. */
+ * Figures: L1 is the mean of |numerical - exact| over a window, by length (nothing where no
+ * material is): a mean over particles would count dense regions, where they are more, twice over.
+ * "Contact" is the largest and the smallest of P/P* - 1 over the 25 particles around a contact, in
+ * per cent. */
 #ifndef EXAMPLES_SHOCK_TUBE_H
 #define EXAMPLES_SHOCK_TUBE_H
 
@@ -269,6 +271,34 @@ static inline tube_state tube_riemann_state(void *riemann, double x) {
   return s;
 }
 
+/* Two in a row, of regions 0 to 3: 0 strikes 1 at time 0; the shock through 1 meets 2, the second
+ * problem begins; 3 is the material of 1 again, at rest and not yet reached. */
+typedef struct tube_relay {
+  tube_riemann first, second;
+  double meets;       /* when the second begins */
+  double beyond_from; /* where region 3 begins */
+} tube_relay;
+
+static inline tube_relay tube_relay_solve(sph_context *ctx, const tube_setup *s) {
+  const tube_region *r = s->region;
+  tube_relay a;
+  a.first = tube_solve(ctx, &r[0].state, &r[1].state, r[1].from, s->end);
+  a.meets = (r[2].from - r[1].from) / a.first.solution.head[1];
+  a.beyond_from = r[3].from;
+  sph_riemann_side struck = r[1].state;
+  struck.rho = a.first.solution.rho[1];
+  struck.v = a.first.solution.v[1];
+  struck.p = a.first.solution.p;
+  a.second = tube_solve(ctx, &struck, &r[2].state, r[2].from, s->end - a.meets);
+  return a;
+}
+
+static inline tube_state tube_relay_state(void *relay, double x) {
+  tube_relay *a = (tube_relay *)relay;
+  const double front = a->second.x0 + a->second.t * a->second.solution.head[0];
+  return tube_riemann_state(x < front || x >= a->beyond_from ? &a->first : &a->second, x);
+}
+
 /* ---- figures ----------------------------------------------------------------------------- */
 
 /* Mean errors of density, pressure, velocity, energy. */
@@ -276,21 +306,21 @@ typedef struct tube_errors {
   double rho, p, v, e;
 } tube_errors;
 
+/* A particle stands for half the way to its neighbours. */
 static inline tube_errors tube_l1(const tube *t, double from, double to, tube_exact exact,
                                   void *user) {
   tube_errors sum = {0.0, 0.0, 0.0, 0.0};
-  int64_t count = 0;
-  for (int64_t i = 0; i < t->n; ++i) {
+  const double length = to - from;
+  for (int64_t i = 1; i + 1 < t->n; ++i) {
     if (t->x[i] < from || t->x[i] > to) continue;
     const tube_state s = exact(user, t->x[i]);
-    sum.rho += fabs(t->rho[i] - s.rho);
-    sum.p += fabs(t->p[i] - s.p);
-    sum.v += fabs(t->v[i] - s.v);
-    sum.e += fabs(t->e[i] - s.e);
-    ++count;
+    const double dx = 0.5 * (t->x[i + 1] - t->x[i - 1]);
+    sum.rho += dx * fabs(t->rho[i] - s.rho);
+    sum.p += dx * fabs(t->p[i] - s.p);
+    sum.v += dx * fabs(t->v[i] - s.v);
+    sum.e += dx * fabs(t->e[i] - s.e);
   }
-  const double n = (double)count;
-  return (tube_errors){sum.rho / n, sum.p / n, sum.v / n, sum.e / n};
+  return (tube_errors){sum.rho / length, sum.p / length, sum.v / length, sum.e / length};
 }
 
 typedef struct tube_range {

@@ -83,28 +83,15 @@ static void column_destroy(column *c) {
 
 /* ---- measuring --------------------------------------------------------------------------- */
 
-typedef struct ledger {
-  double energy, momentum, angular[3];
-  double scale; /* sum m |v|, what the momentum is measured by */
-} ledger;
-
-static ledger measure(column *c, double t) {
-  ledger l = {.energy = 0.0};
-  sph_total_lagrangian_energies e = {.size = sizeof e};
-  const double *x = field(c->ctx, c->set, SPH_FIELD_X), *v = field(c->ctx, c->set, SPH_FIELD_V);
-  const double *m = field(c->ctx, c->set, SPH_FIELD_M);
-  double sum[3] = {0.0};
-  need(c->ctx, sph_total_lagrangian_energy(c->tl, c->set, t, &e));
-  for (int64_t i = 0; i < sph_particles_count(c->set); ++i)
-    for (int a = 0; a < 3; ++a) {
-      const int b = (a + 1) % 3, d = (a + 2) % 3;
-      sum[a] += m[i] * v[3 * i + a];
-      l.scale += m[i] * fabs(v[3 * i + a]);
-      l.angular[a] += m[i] * (x[3 * i + b] * v[3 * i + d] - x[3 * i + d] * v[3 * i + b]);
-    }
-  l.energy = e.kinetic + e.strain + e.hourglass;
-  l.momentum = sqrt(sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]);
+static sph_total_lagrangian_ledger balance(const column *c, double t) {
+  sph_total_lagrangian_ledger l;
+  sph_total_lagrangian_ledger_init(&l);
+  need(c->ctx, sph_total_lagrangian_balance(c->tl, c->set, t, &l));
   return l;
+}
+
+static double energy_of(const sph_total_lagrangian_ledger *l) {
+  return l->kinetic + l->strain + l->hourglass;
 }
 
 /* Angle by which the upper end is turned against the lower one, from the first moments of both end
@@ -145,20 +132,20 @@ static int demo(void) {
   FILE *csv = open_output("twisting_column.csv");
   column_create(&c, 6, 105.0, 0.1);
   need(c.ctx, sph_total_lagrangian_time_step(c.tl, c.set, &dt));
-  const ledger start = measure(&c, 0.0);
+  const sph_total_lagrangian_ledger start = balance(&c, 0.0);
   for (int64_t k = 1; (double)k * dt <= duration; ++k) {
     need(c.ctx, sph_total_lagrangian_step(c.tl, c.set, (double)(k - 1) * dt, dt));
     twist = twist_angle(&c, twist);
     most = fmax(most, fabs(twist));
     if (k % 20 != 0) continue;
-    const ledger now = measure(&c, (double)k * dt);
-    fprintf(csv, "%.6g,%.9g,%.9g,%.6g\n", (double)k * dt, now.energy / start.energy,
-            now.angular[1] / start.angular[1], twist);
+    const sph_total_lagrangian_ledger now = balance(&c, (double)k * dt);
+    fprintf(csv, "%.6g,%.9g,%.9g,%.6g\n", (double)k * dt, energy_of(&now) / energy_of(&start),
+            now.angular_momentum[1] / start.angular_momentum[1], twist);
   }
-  const ledger end = measure(&c, duration);
-  printf("largest twist %.2f rad; energy drift %.2g, angular momentum %.2g, momentum %.2g\n", most,
-         end.energy / start.energy - 1.0, end.angular[1] / start.angular[1] - 1.0,
-         end.momentum / start.scale);
+  const sph_total_lagrangian_ledger end = balance(&c, duration);
+  printf("largest twist %.2f rad; energy drift %.2g, angular momentum %.2g\n", most,
+         energy_of(&end) / energy_of(&start) - 1.0,
+         end.angular_momentum[1] / start.angular_momentum[1] - 1.0);
   column_destroy(&c);
   fclose(csv);
   draw("twisting_column.gp", picture);

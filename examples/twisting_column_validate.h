@@ -49,18 +49,22 @@ static outcome large_twist(int64_t n, double hourglass) {
   column_create(&c, n, 105.0, hourglass);
   need(c.ctx, sph_total_lagrangian_time_step(c.tl, c.set, &dt));
   const int64_t steps = (int64_t)ceil(duration / dt);
-  const ledger start = measure(&c, 0.0);
+  const sph_total_lagrangian_ledger start = balance(&c, 0.0);
+  const double scale = sqrt(2.0 * start.mass * start.kinetic); /* of a momentum */
   for (int64_t k = 1; k <= steps; ++k) {
     need(c.ctx, sph_total_lagrangian_step(c.tl, c.set, (double)(k - 1) * dt, dt));
     twist = twist_angle(&c, twist);
     r.twist = fmax(r.twist, fabs(twist));
     if (k % 20 != 0 && k != steps) continue;
-    const ledger now = measure(&c, (double)k * dt);
-    double turn = 0.0;
-    for (int a = 0; a < 3; ++a) turn += fabs(now.angular[a] - start.angular[a]);
-    r.energy = fmax(r.energy, fabs(now.energy / start.energy - 1.0));
-    r.momentum = fmax(r.momentum, now.momentum / start.scale);
-    r.angular = fmax(r.angular, turn / fabs(start.angular[1]));
+    const sph_total_lagrangian_ledger now = balance(&c, (double)k * dt);
+    double turn = 0.0, push = 0.0;
+    for (int a = 0; a < 3; ++a) {
+      turn += fabs(now.angular_momentum[a] - start.angular_momentum[a]);
+      push += fabs(now.momentum[a] - start.momentum[a]);
+    }
+    r.energy = fmax(r.energy, fabs(energy_of(&now) / energy_of(&start) - 1.0));
+    r.momentum = fmax(r.momentum, push / scale);
+    r.angular = fmax(r.angular, turn / fabs(start.angular_momentum[1]));
     r.pattern = fmax(r.pattern, pattern(&c));
   }
   column_destroy(&c);

@@ -441,6 +441,34 @@ static sph_status ew_adapt(everywhere *w) {
   sph_neighbors_destroy(list);
   return s;
 }
+static sph_status ew_holes(everywhere *w) {
+  const double hole[3] = {0.5, 0.5, 0.25};
+  sph_hole_layout_options o;
+  sph_hole_layout_options_init(&o);
+  o.holes = 1;
+  o.hole = hole;
+  o.spacing = 0.25;
+  return sph_layout_holes(w->ctx, &o, 64, w->out, &w->number);
+}
+static sph_status ew_relax(everywhere *w) {
+  const double points[6] = {0.125, 0.25, 0.375, 0.5, 0.625, 0.75};
+  sph_region_options r;
+  sph_region_options_init(&r);
+  r.dim = 2;
+  memcpy(w->more, points, sizeof points);
+  sph_status s = sph_layout_relax(w->ctx, &r, NULL, 3, w->more, w->out, NULL);
+  for (int k = 0; s != SPH_OK && k < 6; k++) w->more[k] = -7.0;
+  return s;
+}
+static sph_status ew_materials(everywhere *w) {
+  sph_material_layout_options o;
+  sph_material_layout_options_init(&o);
+  o.dim = w->dim;
+  o.kind = SPH_LAYOUT_RELAXED;
+  o.spacing = 0.5;
+  int32_t phase[8];
+  return sph_layout_materials(w->ctx, &o, 8, w->out, phase, w->more, &w->number);
+}
 static sph_status ew_signal(everywhere *w) { return sph_signal_step(w->list, &w->a, 0.25, w->out); }
 static sph_status ew_density_step(everywhere *w) {
   double dt = -7.0;
@@ -559,6 +587,9 @@ static const ew_entry ew_entries[] = {
      ew_add_term, 0, 1},
     {"sph_rhs_evaluate", ew_evaluate, EW_OUTPUT, 1},
     {"sph_adapt_smoothing", ew_adapt, EW_WRITES, 1},
+    {"sph_layout_holes", ew_holes, 0, 0},
+    {"sph_layout_relax", ew_relax, 0, 1},
+    {"sph_layout_materials", ew_materials, 0, 1},
     {"sph_h_from_mass", ew_h_mass, 0, 0},
     {"sph_signal_step", ew_signal, 0, 1},
     {"sph_density_step", ew_density_step, 0, 0},

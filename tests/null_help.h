@@ -35,6 +35,7 @@ static struct {
   sph_material *rubber;
   sph_total_lagrangian_options tl_options;
   sph_total_lagrangian_energies energies;
+  sph_total_lagrangian_ledger ledger;
   sph_hyperelastic_options hyper;
   sph_wall wall;
   sph_operands a, frozen; /* the second one with a gradient matrix */
@@ -143,6 +144,7 @@ static inline void open_all(void) {
   g.tl_options.dim = 1;
   check_ok(sph_total_lagrangian_create(ctx, &g.tl_options, g.rubber, &g.tl));
   g.energies.size = sizeof g.energies;
+  sph_total_lagrangian_ledger_init(&g.ledger);
   void *all[KINDS] = {ctx,  g.s.set,  g.s.kernel, g.s.list, g.material, g.rhs,
                       g.it, g.ghosts, g.hold,     g.points, g.tl};
   memcpy(g.handle, all, sizeof all);

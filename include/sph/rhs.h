@@ -7,8 +7,8 @@
  *   sph_rhs_evaluate(rhs, set, list, t, rates, 3);
  *
  * The formulas and their sources stand at the operators of the same name. All built-in terms take
- * one sweep; kernel-gradient matrices, when any term is corrected, and the divergence for the bulk
- * viscosity take one more each. */
+ * one sweep, those of variable smoothing lengths one of their own; kernel-gradient matrices, when
+ * any term is corrected, and the divergence for the bulk viscosity take one more each. */
 #ifndef SPH_RHS_H
 #define SPH_RHS_H
 

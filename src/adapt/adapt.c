@@ -5,11 +5,10 @@
 
 #include "../particles/particles_impl.h"
 
+#include <sph/smoothing.h>
+
 #include <math.h>
 #include <string.h>
-
-/* SPH_SMOOTHING_* (smoothing.h) */
-enum { BY_MASS = 1, BY_NUMBER = 3 };
 
 enum { GRAIN = 64 };
 
@@ -19,7 +18,7 @@ static const double first_slack = 1.1, later_slack = 1.3; /* reach over h */
 
 void sph_adapt_options_init_sized(sph_adapt_options *options, size_t size) {
   const sph_adapt_options defaults = {.size = sizeof defaults,
-                                      .smoothing = BY_NUMBER,
+                                      .smoothing = SPH_SMOOTHING_NUMBER,
                                       .eta = 1.2,
                                       .tolerance = 1e-10,
                                       .max_evaluations = 200,
@@ -35,7 +34,7 @@ void sph_adapt_result_init_sized(sph_adapt_result *result, size_t size) {
 static int32_t positive(double x) { return isfinite(x) && x > 0.0; }
 
 static sph_status check_options(sph_context *ctx, const sph_adapt_options *o) {
-  if (o->smoothing != BY_MASS && o->smoothing != BY_NUMBER)
+  if (o->smoothing != SPH_SMOOTHING_MASS && o->smoothing != SPH_SMOOTHING_NUMBER)
     return sphi_fail(ctx, SPH_ERR_ARG,
                      "sph_adapt_smoothing: smoothing = %d: only mass and number have a sum",
                      (int)o->smoothing);
@@ -124,7 +123,7 @@ static sph_status set_up(adaptation *c, const sph_kernel *kernel, const double *
   const sph_adapt_options *o = &c->options;
   job->list = c->list;
   job->kernel = kernel;
-  job->m = o->smoothing == BY_MASS ? m : NULL;
+  job->m = o->smoothing == SPH_SMOOTHING_MASS ? m : NULL;
   job->target = pow(o->eta, job->dim);
   job->own = sph_kernel_w(kernel, 0.0, 1.0);
   job->total = (double)job->n;

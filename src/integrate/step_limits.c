@@ -130,43 +130,63 @@ sph_status sph_cfl_step(const sph_particles *set, double cfl, double *dt) {
 typedef struct signal_job {
   const sph_neighbors *list;
   sph_operands a;
-  double *speed; /* rows */
+  double *speed;  /* rows */
+  double *packed; /* n * 2 * dim: x, v of a particle, in the order of the list */
 } signal_job;
 
 static double h_of(const sph_operands *a, int64_t i) { return a->h ? a->h[i] : a->h0; }
 
-/* (v_ij . r_ij)^2; 0 beyond the cutoff, which only a skin lets into a row, and for coincident
- * particles, which have no direction. */
-static double approach2(const signal_job *job, int64_t i, int64_t j) {
-  const sph_neighbors *list = job->list;
-  const sph_operands *a = &job->a;
-  double r2 = 0.0, dot = 0.0;
-  for (int32_t k = 0; k < a->dim; ++k) {
-    double x = a->x[i * a->dim + k] - a->x[j * a->dim + k];
-    if (list->period[k] > 0.0) x -= list->period[k] * nearbyint(x / list->period[k]);
-    r2 += x * x;
-    dot += x * (a->v[i * a->dim + k] - a->v[j * a->dim + k]);
+static void pack_range(void *job, int64_t begin, int64_t end, int32_t worker) {
+  const signal_job *s = job;
+  const sph_operands *a = &s->a;
+  (void)worker;
+  for (int64_t k = begin; k < end; ++k) {
+    const int64_t from = (int64_t)s->list->order[k] * a->dim;
+    double *to = s->packed + 2 * a->dim * k;
+    for (int32_t d = 0; d < a->dim; ++d) {
+      to[d] = a->x[from + d];
+      to[a->dim + d] = a->v[from + d];
+    }
   }
-  if (r2 == 0.0) return 0.0;
-  if (list->options.skin > 0.0) {
-    const double cut =
-        list->options.support * sph_pair_h(list->options.h_rule, h_of(a, i), h_of(a, j));
-    if (r2 >= cut * cut) return 0.0;
-  }
-  return dot * dot / r2;
 }
 
-/* NaN when a pair's is not finite. */
-static double fastest(const signal_job *job, int64_t k) {
+/* Only a skin lets pairs beyond the cutoff into a row. */
+static int beyond(const signal_job *job, int64_t k, int64_t l, double r2) {
   const sph_neighbors *list = job->list;
-  const int64_t i = list->order[k];
+  if (list->options.method != SPH_NEIGHBORS_VERLET) return 0;
+  const double cut =
+      list->options.support * sph_pair_h(list->options.h_rule, h_of(&job->a, list->order[k]),
+                                         h_of(&job->a, list->order[l]));
+  return r2 >= cut * cut;
+}
+
+/* Largest |v_ij . r_ij| of a row; NaN when one is not finite. Products are compared, so that a pair
+ * that sets no new mark costs no division; coincident particles, which have no direction, do not.
+ */
+static inline double fastest(const signal_job *job, int64_t k, int32_t dim) {
+  const sph_neighbors *list = job->list;
+  const double *own = job->packed + 2 * dim * k;
   double most = 0.0;
   for (int64_t p = list->start[k]; p < list->start[k + 1]; ++p) {
-    const double square = approach2(job, i, list->order[list->pair[p]]);
-    if (!isfinite(square)) return NAN;
-    if (square > most) most = square;
+    const double *other = job->packed + 2 * dim * (int64_t)list->pair[p];
+    double r2 = 0.0, dot = 0.0;
+    for (int32_t d = 0; d < dim; ++d) {
+      double x = own[d] - other[d];
+      if (list->period[d] > 0.0) x -= list->period[d] * nearbyint(x / list->period[d]);
+      r2 += x * x;
+      dot += x * (own[dim + d] - other[dim + d]);
+    }
+    if (dot * dot <= most * r2 || beyond(job, k, list->pair[p], r2)) continue;
+    most = dot * dot / r2;
+    if (!isfinite(most)) return NAN;
   }
   return sqrt(most);
+}
+
+static double fastest_of(const signal_job *job, int64_t k) {
+  return job->a.dim == 1   ? fastest(job, k, 1)
+         : job->a.dim == 2 ? fastest(job, k, 2)
+                           : fastest(job, k, 3);
 }
 
 static void signal_range(void *job, int64_t begin, int64_t end, int32_t worker) {
@@ -174,7 +194,7 @@ static void signal_range(void *job, int64_t begin, int64_t end, int32_t worker) 
   (void)worker;
   for (int64_t k = begin; k < end; ++k) {
     const int64_t i = s->list->order[k];
-    if (i < s->a.rows) s->speed[i] = (s->a.c ? s->a.c[i] : s->a.c0) + fastest(s, k);
+    if (i < s->a.rows) s->speed[i] = (s->a.c ? s->a.c[i] : s->a.c0) + fastest_of(s, k);
   }
 }
 
@@ -218,6 +238,7 @@ enum { SIGNAL_GRAIN = 256 };
 static sph_status run_signals(signal_job *job, double factor, double *dt) {
   sph_context *ctx = job->list->base.ctx;
   int64_t bad;
+  sphi_parallel(ctx, job->a.n, SPHI_STATE_GRAIN, pack_range, job);
   sphi_parallel(ctx, job->a.n, SIGNAL_GRAIN, signal_range, job);
   const double least = least_time(ctx, job->a.rows, signal_time, job, &bad);
   if (bad != INT64_MAX)
@@ -239,11 +260,13 @@ sph_status sph_signal_step(sph_neighbors *list, const sph_operands *a, double co
   if (status == SPH_OK) status = check_factor(ctx, "sph_signal_step", "courant", courant);
   if (status == SPH_OK) status = check_operands(list, &job.a, "sph_signal_step");
   if (status != SPH_OK) return status;
-  const size_t bytes = sphi_mul((size_t)job.a.rows, sizeof(double));
-  job.speed = sphi_alloc(ctx, bytes);
-  if (!job.speed) return SPH_ERR_NOMEM;
+  const size_t packed = sphi_mul((size_t)job.a.n, 2 * (size_t)job.a.dim);
+  const size_t bytes = sphi_mul(packed + (size_t)job.a.rows, sizeof(double));
+  job.packed = sphi_alloc(ctx, bytes);
+  if (!job.packed) return SPH_ERR_NOMEM;
+  job.speed = job.packed + packed;
   status = run_signals(&job, courant, dt);
-  sphi_free(ctx, job.speed, bytes);
+  sphi_free(ctx, job.packed, bytes);
   return status;
 }
 

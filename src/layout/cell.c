@@ -3,6 +3,7 @@
 #include "cell.h"
 
 #include <math.h>
+#include <string.h>
 
 static double length2(const double *p) { return p[0] * p[0] + p[1] * p[1]; }
 
@@ -52,9 +53,11 @@ static void rectangle(sphi_polygon *polygon, double x0, double x1, double y0, do
 
 /* ---- 1-D --------------------------------------------------------------------------------- */
 
-static void interval(const sph_region_options *region, const double *x, int64_t mates,
+static void interval(const sphi_measure *how, const double *x, int64_t mates,
                      const sphi_cell_room *room, double *reach, sphi_moments *moments) {
-  double lo = region->lo[0] - x[0], hi = region->hi[0] - x[0];
+  const sph_region_options *region = how->region;
+  double lo = fmax(region->lo[0] - x[0], -how->limit);
+  double hi = fmin(region->hi[0] - x[0], how->limit);
   for (int64_t k = 0; k < mates; ++k) {
     const double middle = 0.5 * room->mates[k].d[0];
     if (middle < 0.0) lo = fmax(lo, middle);
@@ -64,7 +67,7 @@ static void interval(const sph_region_options *region, const double *x, int64_t 
   if (region->inside == NULL)
     sphi_add_segment(moments, lo, hi);
   else
-    sphi_segment_inside(region, x[0], lo, hi, moments);
+    sphi_segment_inside(how, x[0], lo, hi, moments);
 }
 
 /* ---- 2-D --------------------------------------------------------------------------------- */
@@ -83,26 +86,28 @@ static double area_of_holes(const sph_region_options *region, const double *x,
   return area;
 }
 
-static void measure_polygon(const sph_region_options *region, const double *x,
-                            const sphi_polygon *polygon, double reach, int all,
-                            sphi_moments *moments) {
+static void measure_polygon(const sphi_measure *how, const double *x, const sphi_polygon *polygon,
+                            double reach, int all, sphi_moments *moments) {
+  const sph_region_options *region = how->region;
   const double zero[2] = {0.0, 0.0};
   int cut = 0;
   if (region->inside != NULL) {
-    sphi_polygon_inside(region, x, polygon, moments);
+    sphi_polygon_inside(how, x, polygon, moments);
     return;
   }
   const double area = sphi_polygon_area(polygon) - area_of_holes(region, x, polygon, reach, &cut);
-  if (all && cut) sphi_polygon_inside(region, x, polygon, moments);
+  if (all && cut) sphi_polygon_inside(how, x, polygon, moments);
   for (int64_t k = 0; all && !cut && k < polygon->n; ++k)
     sphi_add_triangle(moments, zero, polygon->p[k], polygon->p[k + 1 < polygon->n ? k + 1 : 0]);
   moments->volume = fmax(0.0, area);
 }
 
-static void polygon_cell(const sph_region_options *region, const double *x, int64_t mates, int all,
+static void polygon_cell(const sphi_measure *how, const double *x, int64_t mates, int all,
                          sphi_cell_room *room, double *reach, sphi_moments *moments) {
-  rectangle(&room->a, region->lo[0] - x[0], region->hi[0] - x[0], region->lo[1] - x[1],
-            region->hi[1] - x[1]);
+  const sph_region_options *region = how->region;
+  const double most = how->limit;
+  rectangle(&room->a, fmax(region->lo[0] - x[0], -most), fmin(region->hi[0] - x[0], most),
+            fmax(region->lo[1] - x[1], -most), fmin(region->hi[1] - x[1], most));
   *reach = reach_of(&room->a);
   for (int64_t k = 0; k < mates; ++k) {
     const sphi_mate *mate = &room->mates[k];
@@ -112,7 +117,7 @@ static void polygon_cell(const sph_region_options *region, const double *x, int6
     swap(room);
     *reach = reach_of(&room->a);
   }
-  measure_polygon(region, x, &room->a, *reach, all, moments);
+  measure_polygon(how, x, &room->a, *reach, all, moments);
 }
 
 /* ---- 3-D --------------------------------------------------------------------------------- */
@@ -122,13 +127,13 @@ typedef struct plane {
   double n[3], offset;
 } plane;
 
-static plane plane_of(const sph_region_options *region, const double *x, const sphi_mate *mates,
-                      int64_t k) {
+static plane plane_of(const sphi_measure *how, const double *x, const sphi_mate *mates, int64_t k) {
+  const sph_region_options *region = how->region;
   plane result = {{0.0, 0.0, 0.0}, 0.0};
   if (k < 6) { /* the faces of the box */
     const int64_t a = k / 2;
     result.n[a] = k % 2 ? 1.0 : -1.0;
-    result.offset = k % 2 ? region->hi[a] - x[a] : x[a] - region->lo[a];
+    result.offset = fmin(how->limit, k % 2 ? region->hi[a] - x[a] : x[a] - region->lo[a]);
     return result;
   }
   const sphi_mate *mate = &mates[k - 6];
@@ -155,15 +160,15 @@ static double dot3(const double *a, const double *b) {
 }
 
 /* The face of the cell in plane k, left in room->a as coordinates along u and v. */
-static void cut_face(const sph_region_options *region, const double *x, int64_t planes, int64_t k,
+static void cut_face(const sphi_measure *how, const double *x, int64_t planes, int64_t k,
                      double size, sphi_cell_room *room) {
-  const plane own = plane_of(region, x, room->mates, k);
+  const plane own = plane_of(how, x, room->mates, k);
   double u[3], v[3];
   tangents(own.n, u, v);
   rectangle(&room->a, -size, size, -size, size);
   for (int64_t other = 0; other < planes && room->a.n > 0; ++other) {
     if (other == k) continue;
-    const plane p = plane_of(region, x, room->mates, other);
+    const plane p = plane_of(how, x, room->mates, other);
     const double in_plane[2] = {dot3(p.n, u), dot3(p.n, v)};
     const double offset = p.offset - own.offset * dot3(p.n, own.n);
     if (!cuts(&room->a, in_plane, offset)) continue;
@@ -191,26 +196,60 @@ static void add_pyramid(const plane *face, const sphi_polygon *polygon, int all,
   moments->second += face->offset / 5.0 * (face->offset * face->offset * flat.volume + flat.second);
 }
 
-static void polyhedron_cell(const sph_region_options *region, const double *x, int64_t mates,
-                            int all, sphi_cell_room *room, double *reach, sphi_moments *moments) {
-  double diagonal = 0.0, most = 0.0;
-  for (int a = 0; a < 3; ++a) diagonal = hypot(diagonal, region->hi[a] - region->lo[a]);
-  for (int64_t k = 0; k < mates + 6; ++k) {
-    const plane face = plane_of(region, x, room->mates, k);
-    cut_face(region, x, mates + 6, k, 2.0 * diagonal, room);
-    add_pyramid(&face, &room->a, all, moments);
-    if (room->a.n > 0) most = fmax(most, hypot(face.offset, reach_of(&room->a)));
+/* The same, of what is inside: tetrahedra from the particle to a fan of the face. */
+static void add_pyramid_inside(const sphi_measure *how, const double *x, const plane *face,
+                               const sphi_polygon *polygon, sphi_moments *moments) {
+  double u[3], v[3], corner[3][3];
+  tangents(face->n, u, v);
+  for (int64_t k = 0; k < polygon->n; ++k) {
+    double *at = corner[k < 2 ? k : 2];
+    if (k > 2) memcpy(corner[1], corner[2], sizeof corner[1]);
+    for (int a = 0; a < 3; ++a)
+      at[a] = face->offset * face->n[a] + polygon->p[k][0] * u[a] + polygon->p[k][1] * v[a];
+    if (k >= 2) sphi_tetrahedron_inside(how, x, corner[0], corner[1], corner[2], moments);
   }
-  *reach = most;
 }
 
-void sphi_cell_measure(const sph_region_options *region, const double *x, int64_t mates, int all,
+/* Face by face, against the first `mates`. Returns the largest distance of a corner. */
+static double polyhedron(const sphi_measure *how, const double *x, int64_t mates, int all,
+                         double size, sphi_cell_room *room, sphi_moments *moments) {
+  double most = 0.0;
+  *moments = (sphi_moments){0.0, {0.0, 0.0, 0.0}, 0.0};
+  for (int64_t k = 0; k < mates + 6; ++k) {
+    const plane face = plane_of(how, x, room->mates, k);
+    cut_face(how, x, mates + 6, k, size, room);
+    if (room->a.n == 0) continue;
+    most = fmax(most, hypot(face.offset, reach_of(&room->a)));
+    if (how->region->inside == NULL)
+      add_pyramid(&face, &room->a, all, moments);
+    else
+      add_pyramid_inside(how, x, &face, &room->a, moments);
+  }
+  return most;
+}
+
+/* Every face is cut by every plane: begin with few mates, and go on with those only that could cut
+ * what these leave. */
+static void polyhedron_cell(const sphi_measure *how, const double *x, int64_t mates, int all,
+                            sphi_cell_room *room, double *reach, sphi_moments *moments) {
+  enum { FIRST = 40 };
+  int64_t used = 0, needed = mates < FIRST ? mates : FIRST;
+  double diagonal = 0.0;
+  for (int a = 0; a < 3; ++a) diagonal = hypot(diagonal, how->region->hi[a] - how->region->lo[a]);
+  do {
+    used = needed;
+    *reach = polyhedron(how, x, used, all, 2.0 * diagonal, room, moments);
+    while (needed < mates && room->mates[needed].r2 <= 4.0 * *reach * *reach) ++needed;
+  } while (needed > used);
+}
+
+void sphi_cell_measure(const sphi_measure *how, const double *x, int64_t mates, int all,
                        sphi_cell_room *room, double *reach, sphi_moments *moments) {
   *moments = (sphi_moments){0.0, {0.0, 0.0, 0.0}, 0.0};
-  if (region->dim == 1)
-    interval(region, x, mates, room, reach, moments);
-  else if (region->dim == 2)
-    polygon_cell(region, x, mates, all, room, reach, moments);
+  if (how->region->dim == 1)
+    interval(how, x, mates, room, reach, moments);
+  else if (how->region->dim == 2)
+    polygon_cell(how, x, mates, all, room, reach, moments);
   else
-    polyhedron_cell(region, x, mates, all, room, reach, moments);
+    polyhedron_cell(how, x, mates, all, room, reach, moments);
 }

@@ -33,11 +33,20 @@ typedef struct sphi_moments {
   double second;   /* of |y|^2 */
 } sphi_moments;
 
+/* What cells are measured with: the region, and the mean distance of particles. A host's `inside`
+ * is looked at in pieces of spacing / 4, where it cuts down to spacing / 2^levels. */
+typedef struct sphi_measure {
+  const sph_region_options *region;
+  double spacing;
+  int32_t levels;
+  double limit; /* what lies farther than this along an axis is no one's; infinity: none */
+} sphi_measure;
+
 /* The cell of a particle at x against `mates` sorted by distance. Moments but the volume are 0
  * unless `all` asks for them; where circular holes cut the cell they are those of halving. *reach
  * receives the largest distance of its corners: mates farther away than twice that cannot cut it.
  */
-void sphi_cell_measure(const sph_region_options *region, const double *x, int64_t mates, int all,
+void sphi_cell_measure(const sphi_measure *how, const double *x, int64_t mates, int all,
                        sphi_cell_room *room, double *reach, sphi_moments *moments);
 
 /* Add those of [lo, hi], and of a triangle, all of it inside. */
@@ -48,9 +57,12 @@ void sphi_add_triangle(sphi_moments *moments, const double *a, const double *b, 
  * region. */
 double sphi_polygon_area(const sphi_polygon *polygon);
 double sphi_polygon_in_disc(const sphi_polygon *polygon, const double *centre, double radius);
-void sphi_polygon_inside(const sph_region_options *region, const double *x,
-                         const sphi_polygon *polygon, sphi_moments *moments);
-void sphi_segment_inside(const sph_region_options *region, double x, double lo, double hi,
+void sphi_polygon_inside(const sphi_measure *how, const double *x, const sphi_polygon *polygon,
+                         sphi_moments *moments);
+/* Of the tetrahedron of the particle, which lies in its cell, and a, b, c. */
+void sphi_tetrahedron_inside(const sphi_measure *how, const double *x, const double *a,
+                             const double *b, const double *c, sphi_moments *moments);
+void sphi_segment_inside(const sphi_measure *how, double x, double lo, double hi,
                          sphi_moments *moments);
 
 /* Cells of all particles; zero-initialise, then set the first part. Opened for n particles, it can
@@ -61,7 +73,9 @@ typedef struct sphi_tessellation {
   const sph_region_options *region;
   int64_t n; /* at least 1 */
   const double *x;
-  int all; /* all moments, not the volumes alone */
+  int all;        /* all moments, not the volumes alone */
+  int32_t levels; /* of halving; may change between runs */
+  double limit;   /* of a sphi_measure; 0 stands for none */
 
   sphi_moments *cell; /* n: what a run finds; a volume below 0 while the room was too small */
   sph_neighbors *list;

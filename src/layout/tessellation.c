@@ -74,9 +74,10 @@ static int64_t measure(sphi_tessellation *job, int64_t i, sphi_cell_room *room) 
     const int64_t mates = gather(job, i, radius, room, &found);
     if (mates < 0) return found;
     if (job->coincident < INT64_MAX) return 0;
+    const double limit = job->limit > 0.0 ? job->limit : INFINITY;
+    const sphi_measure how = {job->region, job->spacing, job->levels, limit};
     sphi_moments moments;
-    sphi_cell_measure(job->region, job->x + i * job->region->dim, mates, job->all, room, &reach,
-                      &moments);
+    sphi_cell_measure(&how, job->x + i * job->region->dim, mates, job->all, room, &reach, &moments);
     if (radius > 2.0 * reach || radius > job->diagonal) {
       job->cell[i] = moments;
       return 0;
@@ -169,8 +170,6 @@ sph_status sphi_check_region(sph_context *ctx, const char *function, const sph_r
                      (int)o->dim);
   if (o->levels < 0 || o->levels > 12)
     return sphi_fail(ctx, SPH_ERR_ARG, "%s: levels is %d, not 0..12", function, (int)o->levels);
-  if (o->inside != NULL && o->dim == 3)
-    return sphi_fail(ctx, SPH_ERR_UNSUPPORTED, "%s: inside is for 1-D and 2-D", function);
   return SPH_OK;
 }
 

@@ -28,7 +28,8 @@ sph_status sph_layout_volumes(sph_context *ctx, const sph_region_options *option
   if (!s) s = sphi_check_region(ctx, function, &region);
   if (!s) s = check_particles(ctx, &region, n, x, volumes);
   if (s || n == 0) return s;
-  sphi_tessellation job = {.ctx = ctx, .function = function, .region = &region, .n = n, .x = x};
+  sphi_tessellation job = {
+      .ctx = ctx, .function = function, .region = &region, .n = n, .x = x, .levels = region.levels};
   s = sphi_tessellation_open(&job);
   if (!s) s = sphi_tessellation_run(&job);
   for (int64_t i = 0; !s && i < n; ++i) volumes[i] = job.cell[i].volume;

@@ -1,38 +1,17 @@
 /* Total-Lagrangian elasticity, composed of public pieces; only the handle itself (its memory and
  * error sentences) uses the services of core. */
-#include "../core/core.h"
-#include "checkpoint.h"
+#include "total_lagrangian_impl.h"
 
-#include <sph/correction.h>
 #include <sph/integrator.h>
 #include <sph/material.h>
 #include <sph/neighbors.h>
-#include <sph/particles.h>
-#include <sph/total_lagrangian.h>
 
 #include <math.h>
 #include <string.h>
 
 enum { GRAIN = 8192 };
 
-struct sph_total_lagrangian {
-  sphi_object base;
-  sph_total_lagrangian_options options;
-  sph_kernel *kernel;
-  sph_neighbors *list;
-  sph_rhs *rhs;
-  sph_integrator *integrator; /* NULL: the leapfrog below */
-  sph_material *material;     /* of phase 0; the right-hand side keeps it alive */
-  sphi_buffer rates, saved, scratch;
-  /* What the acceleration in `rates` belongs to; set NULL: to nothing. */
-  const sph_particles *set;
-  uint64_t generation, revision_x, revision_v;
-  double t, slack;              /* times may differ by rounding */
-  const sph_particles *started; /* identity only */
-};
-
-/* ---- options and life --------------------------------------------------------------------------
- */
+/* ---- options and life --------------------------------------------------------------------- */
 
 void sph_total_lagrangian_options_init_sized(sph_total_lagrangian_options *options, size_t size) {
   const sph_total_lagrangian_options defaults = {.size = sizeof defaults,
@@ -62,6 +41,10 @@ static sph_status check_options(sph_context *ctx, const sph_total_lagrangian_opt
   if (o->integrator == SPH_INTEGRATOR_BUTCHER || o->integrator == SPH_INTEGRATOR_RKC)
     return sphi_fail(ctx, SPH_ERR_UNSUPPORTED,
                      "total_lagrangian: integrator %d needs options of its own", o->integrator);
+  if (o->audit && o->integrator != SPH_INTEGRATOR_LEAPFROG)
+    return sphi_fail(ctx, SPH_ERR_UNSUPPORTED,
+                     "total_lagrangian: the ledger goes with LEAPFROG, not with integrator %d",
+                     o->integrator);
   return SPH_OK;
 }
 
@@ -78,14 +61,18 @@ static sph_status add_term(sph_rhs *rhs, int32_t kind, int32_t form, double alph
   return sph_rhs_add(rhs, &term);
 }
 
+sph_status sphi_tl_add_viscosity(sph_rhs *rhs, const sph_total_lagrangian_options *o) {
+  if (o->alpha == 0.0 && o->beta == 0.0) return SPH_OK;
+  return add_term(rhs, SPH_TERM_MONAGHAN, SPH_MONAGHAN_CURRENT, o->alpha, o->beta, NULL);
+}
+
 static sph_status add_terms(sph_rhs *rhs, const sph_total_lagrangian_options *o) {
   const double *g = o->gravity;
   sph_status s = add_term(rhs, SPH_TERM_MOTION, 0, 0.0, 0.0, NULL);
   if (!s) s = add_term(rhs, SPH_TERM_FIRST_PIOLA, o->form, 0.0, 0.0, NULL);
   if (!s && o->hourglass > 0.0)
     s = add_term(rhs, SPH_TERM_HOURGLASS, o->hourglass_form, o->hourglass, 0.0, NULL);
-  if (!s && (o->alpha > 0.0 || o->beta > 0.0))
-    s = add_term(rhs, SPH_TERM_MONAGHAN, SPH_MONAGHAN_CURRENT, o->alpha, o->beta, NULL);
+  if (!s) s = sphi_tl_add_viscosity(rhs, o);
   if (!s && (g[0] != 0.0 || g[1] != 0.0 || g[2] != 0.0))
     s = add_term(rhs, SPH_TERM_BODY_FORCE, 0, 0.0, 0.0, g);
   return s;
@@ -142,6 +129,7 @@ sph_status sph_total_lagrangian_create(sph_context *ctx,
   sphi_context_retain(ctx);
   s = make_pieces(tl, material);
   if (!s) s = make_integrator(tl);
+  if (!s && own.audit) s = sphi_tl_ledger_create(tl);
   if (s)
     sph_total_lagrangian_destroy(tl);
   else
@@ -156,6 +144,7 @@ static sph_status check(sph_total_lagrangian *tl) {
 void sph_total_lagrangian_destroy(sph_total_lagrangian *tl) {
   if (!tl || check(tl)) return;
   sph_context *ctx = tl->base.ctx;
+  sphi_tl_ledger_destroy(tl);
   sph_integrator_destroy(tl->integrator);
   sph_rhs_destroy(tl->rhs);
   sph_neighbors_destroy(tl->list);
@@ -174,10 +163,9 @@ sph_neighbors *sph_total_lagrangian_list(sph_total_lagrangian *tl) {
   return check(tl) ? NULL : tl->list;
 }
 
-/* ---- the reference configuration ----------------------------------------------------------------
- */
+/* ---- the reference configuration ---------------------------------------------------------- */
 
-static sph_status check_set(sph_total_lagrangian *tl, const sph_particles *set) {
+sph_status sphi_tl_check_set(sph_total_lagrangian *tl, const sph_particles *set) {
   sph_status s = check(tl);
   if (!s) s = sphi_check_handle(tl->base.ctx, set, SPHI_MAGIC_PARTICLES, "set");
   if (s || sph_particles_dim(set) == tl->options.dim) return s;
@@ -185,8 +173,8 @@ static sph_status check_set(sph_total_lagrangian *tl, const sph_particles *set) 
                    sph_particles_dim(set), tl->options.dim);
 }
 
-static sph_status check_started(sph_total_lagrangian *tl, const sph_particles *set) {
-  sph_status s = check_set(tl, set);
+sph_status sphi_tl_check_started(sph_total_lagrangian *tl, const sph_particles *set) {
+  sph_status s = sphi_tl_check_set(tl, set);
   if (s || tl->started == set) return s;
   return sphi_fail(tl->base.ctx, SPH_ERR_STATE,
                    "total_lagrangian: the scheme was not started with this set");
@@ -244,31 +232,32 @@ static sph_status set_reference(sph_total_lagrangian *tl, sph_particles *set) {
   return sph_particles_touch(set, SPH_FIELD_X0);
 }
 
-static sph_status build_list(sph_total_lagrangian *tl, const sph_particles *set) {
+sph_status sphi_tl_build_list(sph_total_lagrangian *tl, const sph_particles *set) {
   return sph_neighbors_build_arrays(tl->list, tl->options.dim, sph_particles_count(set),
                                     sph_particles_field_const(set, SPH_FIELD_X0),
                                     sph_particles_field_const(set, SPH_FIELD_H), 0.0);
 }
 
 sph_status sph_total_lagrangian_start(sph_total_lagrangian *tl, sph_particles *set) {
-  sph_status s = check_set(tl, set);
+  sph_status s = sphi_tl_check_set(tl, set);
   if (!s) s = check_masses(tl, set);
   if (s) return s;
   tl->set = tl->started = NULL;
+  tl->ledger.begun = 0;
   s = set_lengths(tl, set);
   if (!s) s = set_speeds(tl, set);
   if (!s) s = set_reference(tl, set);
   if (!s) /* M and RHO may have been written by the host */
     s = sph_particles_touch(set, SPH_FIELD_M);
   if (!s) s = sph_particles_touch(set, SPH_FIELD_RHO);
-  if (!s) s = build_list(tl, set);
+  if (!s) s = sphi_tl_build_list(tl, set);
   if (!s) tl->started = set;
   return s;
 }
 
 sph_status sph_total_lagrangian_time_step(sph_total_lagrangian *tl, const sph_particles *set,
                                           double *dt) {
-  sph_status s = check_started(tl, set);
+  sph_status s = sphi_tl_check_started(tl, set);
   if (s) return s;
   if (!dt) return sphi_fail(tl->base.ctx, SPH_ERR_ARG, "total_lagrangian: dt is NULL");
   const double *h = sph_particles_field_const(set, SPH_FIELD_H);
@@ -282,8 +271,7 @@ sph_status sph_total_lagrangian_time_step(sph_total_lagrangian *tl, const sph_pa
   return SPH_OK;
 }
 
-/* ---- leapfrog
- * ------------------------------------------------------------------------------------ */
+/* ---- leapfrog ------------------------------------------------------------------------------ */
 
 typedef struct move_job {
   double *y;
@@ -314,10 +302,11 @@ static sph_status accelerate(sph_total_lagrangian *tl, sph_particles *set, doubl
   sph_status s = sphi_buffer_reserve(tl->base.ctx, &tl->rates, sphi_mul(n, sizeof(double)));
   if (s) return s;
   sph_rate rate = {SPH_FIELD_V, tl->rates.ptr};
-  return sph_rhs_evaluate(tl->rhs, set, tl->list, t, &rate, 1);
+  s = sph_rhs_evaluate(tl->rhs, set, tl->list, t, &rate, 1);
+  return s || !tl->options.audit ? s : sphi_tl_ledger_split(tl, set, t);
 }
 
-static void remember(sph_total_lagrangian *tl, const sph_particles *set, double t, double dt) {
+void sphi_tl_remember(sph_total_lagrangian *tl, const sph_particles *set, double t, double dt) {
   tl->set = set;
   tl->generation = sph_particles_generation(set);
   tl->revision_x = sph_particles_revision(set, SPH_FIELD_X);
@@ -326,16 +315,16 @@ static void remember(sph_total_lagrangian *tl, const sph_particles *set, double 
   tl->slack = 1e-6 * fabs(dt);
 }
 
-static int remembered(const sph_total_lagrangian *tl, const sph_particles *set, double t) {
+int sphi_tl_remembered(const sph_total_lagrangian *tl, const sph_particles *set, double t) {
   return tl->set == set && tl->generation == sph_particles_generation(set) &&
          tl->revision_x == sph_particles_revision(set, SPH_FIELD_X) &&
          tl->revision_v == sph_particles_revision(set, SPH_FIELD_V) && fabs(t - tl->t) <= tl->slack;
 }
 
-static sph_status accelerate_once(sph_total_lagrangian *tl, sph_particles *set, double t) {
-  if (remembered(tl, set, t)) return SPH_OK;
+sph_status sphi_tl_accelerate_once(sph_total_lagrangian *tl, sph_particles *set, double t) {
+  if (sphi_tl_remembered(tl, set, t)) return SPH_OK;
   sph_status s = accelerate(tl, set, t);
-  if (!s) remember(tl, set, t, 0.0);
+  if (!s) sphi_tl_remember(tl, set, t, 0.0);
   return s;
 }
 
@@ -357,13 +346,19 @@ static sph_status check_finite(sph_total_lagrangian *tl, const sph_particles *se
                    (long long)(bad / tl->options.dim));
 }
 
+static sph_status kick(sph_total_lagrangian *tl, sph_particles *set, double dt) {
+  sphi_tl_ledger_kick(tl, set, dt);
+  sph_status s = move(set, tl->base.ctx, SPH_FIELD_V, tl->rates.ptr, dt);
+  if (!s) sphi_tl_ledger_kick(tl, set, dt);
+  return s;
+}
+
 static sph_status leapfrog(sph_total_lagrangian *tl, sph_particles *set, double t, double dt) {
   sph_context *ctx = tl->base.ctx;
-  const double *a = tl->rates.ptr;
-  sph_status s = move(set, ctx, SPH_FIELD_V, a, 0.5 * dt);
+  sph_status s = kick(tl, set, 0.5 * dt);
   if (!s) s = move(set, ctx, SPH_FIELD_X, sph_particles_field_const(set, SPH_FIELD_V), dt);
   if (!s) s = accelerate(tl, set, t + dt);
-  if (!s) s = move(set, ctx, SPH_FIELD_V, tl->rates.ptr, 0.5 * dt);
+  if (!s) s = kick(tl, set, 0.5 * dt);
   return s ? s : check_finite(tl, set);
 }
 
@@ -385,18 +380,22 @@ static sph_status step_leapfrog(sph_total_lagrangian *tl, sph_particles *set, do
   sph_status s = sphi_buffer_reserve(tl->base.ctx, &tl->saved, sphi_mul(n, sizeof(double)));
   if (s) return s;
   copy_state(tl, set, 0);
-  s = accelerate_once(tl, set, t);
+  s = sphi_tl_accelerate_once(tl, set, t);
+  if (!s && tl->options.audit) s = sphi_tl_ledger_begin(tl, set);
+  const sphi_tl_ledger before = tl->ledger;
   if (!s) s = leapfrog(tl, set, t, dt);
-  if (!s)
-    remember(tl, set, t + dt, dt);
-  else if (sph_particles_real_count(set) == count)
-    copy_state(tl, set, 1);
+  if (!s) {
+    sphi_tl_remember(tl, set, t + dt, dt);
+    return SPH_OK;
+  }
+  memcpy(tl->ledger.integral, before.integral, sizeof before.integral);
+  if (sph_particles_real_count(set) == count) copy_state(tl, set, 1);
   return s;
 }
 
 sph_status sph_total_lagrangian_step(sph_total_lagrangian *tl, sph_particles *set, double t,
                                      double dt) {
-  sph_status s = check_started(tl, set);
+  sph_status s = sphi_tl_check_started(tl, set);
   if (s) return s;
   if (!isfinite(t) || !isfinite(dt) || dt == 0.0)
     return sphi_fail(tl->base.ctx, SPH_ERR_ARG, "total_lagrangian: t %g, dt %g", t, dt);
@@ -405,73 +404,7 @@ sph_status sph_total_lagrangian_step(sph_total_lagrangian *tl, sph_particles *se
   return sph_integrator_step(tl->integrator, set, t, dt, NULL);
 }
 
-/* ---- checkpoints
- * -------------------------------------------------------------------------------- */
-
-/* What the leapfrog knows about the acceleration that it carried over. */
-typedef struct carried {
-  double t, slack;
-  int64_t known;
-} carried;
-
-static const int32_t kept[] = {SPH_FIELD_X, SPH_FIELD_V,   SPH_FIELD_X0, SPH_FIELD_H,
-                               SPH_FIELD_M, SPH_FIELD_RHO, SPH_FIELD_C};
-enum { KEPT = sizeof kept / sizeof *kept };
-
-static sph_status pieces_of(sph_total_lagrangian *tl, sph_particles *set, carried *a,
-                            sphi_checkpoint *c) {
-  const size_t n = (size_t)sph_particles_real_count(set) * (size_t)tl->options.dim;
-  sph_status s = sphi_buffer_reserve(tl->base.ctx, &tl->rates, sphi_mul(n, sizeof(double)));
-  *c = (sphi_checkpoint){.ctx = tl->base.ctx,
-                         .name = "total_lagrangian",
-                         .kind = SPHI_MAGIC_TOTAL_LAGRANGIAN,
-                         .set = set,
-                         .integrator = tl->integrator};
-  *a = (carried){tl->t, tl->slack, remembered(tl, set, tl->t)};
-  sphi_checkpoint_add(c, a, sizeof *a);
-  if (!tl->integrator) sphi_checkpoint_add(c, tl->rates.ptr, sphi_mul(n, sizeof(double)));
-  for (int k = 0; !s && k < KEPT; ++k) s = sphi_checkpoint_field(c, kept[k]);
-  return s;
-}
-
-sph_status sph_total_lagrangian_state_size(sph_total_lagrangian *tl, sph_particles *set,
-                                           size_t *bytes) {
-  sphi_checkpoint c;
-  carried a;
-  sph_status s = check_started(tl, set);
-  if (!s) s = pieces_of(tl, set, &a, &c);
-  return s ? s : sphi_checkpoint_size(&c, bytes);
-}
-
-sph_status sph_total_lagrangian_save(sph_total_lagrangian *tl, sph_particles *set, void *buffer,
-                                     size_t bytes) {
-  sphi_checkpoint c;
-  carried a;
-  sph_status s = check_started(tl, set);
-  if (!s) s = pieces_of(tl, set, &a, &c);
-  return s ? s : sphi_checkpoint_write(&c, buffer, bytes);
-}
-
-sph_status sph_total_lagrangian_restore(sph_total_lagrangian *tl, sph_particles *set,
-                                        const void *buffer, size_t bytes) {
-  sphi_checkpoint c;
-  carried a;
-  sph_status s = check_set(tl, set);
-  if (s) return s;
-  tl->set = tl->started = NULL;
-  s = pieces_of(tl, set, &a, &c);
-  if (!s) s = sphi_checkpoint_read(&c, buffer, bytes);
-  for (int k = 0; !s && k < KEPT; ++k) s = sph_particles_touch(set, kept[k]);
-  if (!s) s = build_list(tl, set);
-  if (s) return s;
-  tl->started = set;
-  if (a.known) remember(tl, set, a.t, 0.0);
-  tl->slack = a.slack;
-  return SPH_OK;
-}
-
-/* ---- energies
- * ------------------------------------------------------------------------------------ */
+/* ---- energies ------------------------------------------------------------------------------ */
 
 /* Energies of the springs into `energy`; `force` and `matrix` are scratch. */
 static sph_status spring_energies(sph_total_lagrangian *tl, sph_particles *set, double *matrix,
@@ -526,13 +459,13 @@ static sph_status measure(sph_total_lagrangian *tl, sph_particles *set,
 
 sph_status sph_total_lagrangian_energy(sph_total_lagrangian *tl, sph_particles *set, double t,
                                        sph_total_lagrangian_energies *energies) {
-  sph_status s = check_started(tl, set);
+  sph_status s = sphi_tl_check_started(tl, set);
   if (s) return s;
   if (!energies || energies->size < sizeof *energies)
     return sphi_fail(tl->base.ctx, SPH_ERR_ARG, "total_lagrangian: energies %s",
                      energies ? "are shorter than those of this library" : "is NULL");
   sph_total_lagrangian_energies e = {.size = energies->size};
-  s = accelerate_once(tl, set, t);
+  s = sphi_tl_accelerate_once(tl, set, t);
   if (!s) s = measure(tl, set, &e);
   if (!s) memcpy(energies, &e, sizeof e);
   return s;

@@ -6,7 +6,7 @@
 
 #include <sph/sph.h>
 
-enum { N = 400, BY_MASS = 1, BY_NUMBER = 3 };
+enum { N = 400 };
 
 typedef struct cloud {
   sph_context *ctx;
@@ -115,7 +115,7 @@ static double number(const cloud *c, int32_t smoothing, int64_t i, double h) {
       r2 += x * x;
     }
     double w = sph_kernel_w(c->kernel, sqrt(r2), h);
-    sum += smoothing == BY_MASS ? c->m[j] / c->m[i] * w : w;
+    sum += smoothing == SPH_SMOOTHING_MASS ? c->m[j] / c->m[i] * w : w;
   }
   return sum;
 }
@@ -143,7 +143,8 @@ static void test_lattice(void **state) {
   const double pi = acos(-1.0), eta_d[] = {0.0, 1.0, 10.0 / (7.0 * pi) * (2.0 + 4.0 * s2),
                                            1.0 / pi * (2.5 + 12.0 * s2 + 8.0 * s3)};
   for (int32_t dim = 1; dim <= 3; dim++)
-    for (int32_t smoothing = BY_MASS; smoothing <= BY_NUMBER; smoothing += 2) {
+    for (int32_t smoothing = SPH_SMOOTHING_MASS; smoothing <= SPH_SMOOTHING_NUMBER;
+         smoothing += 2) {
       const int64_t side = dim == 3 ? 6 : 8, n = dim == 1 ? side : dim == 2 ? 64 : 216;
       cloud c = open_cloud((recipe){.dim = dim, .n = n, .period = (double)side});
       for (int64_t i = 0; i < n; i++) {
@@ -168,14 +169,14 @@ static void test_lattice(void **state) {
 static void test_pair(void **state) {
   (void)state;
   cloud c = open_cloud((recipe){.dim = 1, .n = 2});
-  sph_adapt_options o = options_of(BY_NUMBER, 5.0 / 6.0);
+  sph_adapt_options o = options_of(SPH_SMOOTHING_NUMBER, 5.0 / 6.0);
   c.x[1] = 1.0;
   c.h[0] = 0.9;
   check_ok(adapt(&c, &o, NULL));
   for (int i = 0; i < 2; i++) check_close(c.h[i], 1.0, 1e-10);
   c.m[1] = 3.0;
   c.h[1] = 0.7;
-  o = options_of(BY_MASS, 7.0 / 6.0);
+  o = options_of(SPH_SMOOTHING_MASS, 7.0 / 6.0);
   o.keep = 1;
   sph_adapt_result result;
   check_ok(adapt(&c, &o, &result));
@@ -206,7 +207,7 @@ static void test_brute_force(void **state) {
       recipe r = {.dim = dim, .n = N, .method = 1 + k % 4, .kernel = kernels[k / 8]};
       if (k / 4 % 2) r.period = 1.0;
       cloud c = random_cloud(r);
-      int32_t smoothing = k % 2 ? BY_MASS : BY_NUMBER;
+      int32_t smoothing = k % 2 ? SPH_SMOOTHING_MASS : SPH_SMOOTHING_NUMBER;
       sph_adapt_options o = options_of(smoothing, 1.3);
       sph_status s = adapt(&c, &o, NULL);
       if (s != SPH_OK) fail_msg("%d-D, %d: %s", dim, k, sph_context_last_error(c.ctx));
@@ -219,7 +220,7 @@ static void test_brute_force(void **state) {
 static void test_list_is_ready(void **state) {
   (void)state;
   cloud c = random_cloud((recipe){.dim = 2, .n = N});
-  sph_adapt_options o = options_of(BY_NUMBER, 1.2);
+  sph_adapt_options o = options_of(SPH_SMOOTHING_NUMBER, 1.2);
   sph_adapt_result result;
   int32_t rebuilt = 7;
   check_ok(adapt(&c, &o, &result));
@@ -237,7 +238,7 @@ static void test_list_is_ready(void **state) {
   for (int64_t i = 0; i < 2 * N; i++) c.x[i] += 1e-3 * noise(i + 31); /* as in a time step */
   check_ok(adapt(&c, &o, &result));
   assert_true(result.evaluations <= 5 * N && result.builds <= 3);
-  check_roots(&c, BY_NUMBER, 1.2);
+  check_roots(&c, SPH_SMOOTHING_NUMBER, 1.2);
   close_cloud(&c);
 }
 
@@ -247,7 +248,7 @@ static void test_cold_start(void **state) {
   for (int32_t dim = 1; dim <= 3; dim++)
     for (int k = 0; k < 6; k++) {
       cloud c = random_cloud((recipe){.dim = dim, .n = N, .period = k % 2 ? 1.0 : 0.0});
-      sph_adapt_options o = options_of(BY_NUMBER, 1.2);
+      sph_adapt_options o = options_of(SPH_SMOOTHING_NUMBER, 1.2);
       sph_adapt_result result;
       double want[N];
       check_ok(adapt(&c, &o, NULL));
@@ -265,10 +266,10 @@ static void test_cold_start(void **state) {
 static void test_ghosts(void **state) {
   (void)state;
   cloud c = random_cloud((recipe){.dim = 2, .n = N, .ghosts = 100});
-  sph_adapt_options o = options_of(BY_MASS, 1.2);
+  sph_adapt_options o = options_of(SPH_SMOOTHING_MASS, 1.2);
   for (int64_t i = c.rows; i < N; i++) c.h[i] = 0.05;
   check_ok(adapt(&c, &o, NULL));
-  check_roots(&c, BY_MASS, 1.2);
+  check_roots(&c, SPH_SMOOTHING_MASS, 1.2);
   for (int64_t i = c.rows; i < N; i++) check_close(c.h[i], 0.05, 0.0);
   close_cloud(&c);
 }
@@ -278,7 +279,7 @@ static void test_threads(void **state) {
   double first[2 * N];
   for (int32_t threads = 1; threads <= 5; threads++) {
     cloud c = random_cloud((recipe){.dim = 3, .n = N, .threads = threads});
-    sph_adapt_options o = options_of(BY_MASS, 1.2);
+    sph_adapt_options o = options_of(SPH_SMOOTHING_MASS, 1.2);
     check_ok(adapt(&c, &o, NULL));
     if (threads == 1) {
       memcpy(first, c.h, N * sizeof *first);
@@ -296,7 +297,7 @@ static void test_jumps(void **state) {
   enum { SIDE = 60, MANY = SIDE * SIDE };
   cloud c = open_cloud(
       (recipe){.dim = 2, .n = MANY, .kernel = SPH_KERNEL_GAUSSIAN, .period = (double)SIDE});
-  sph_adapt_options o = options_of(BY_NUMBER, 1.2);
+  sph_adapt_options o = options_of(SPH_SMOOTHING_NUMBER, 1.2);
   sph_adapt_result result;
   int64_t off = 0;
   for (int64_t i = 0; i < MANY; i++) {
@@ -307,12 +308,13 @@ static void test_jumps(void **state) {
   check_ok(adapt(&c, &o, &result));
   const double jump = sph_kernel_w(c.kernel, 3.0 * (1.0 - 1e-15), 1.0) / (1.2 * 1.2);
   for (int64_t i = 0; i < MANY; i++) {
-    double h = c.h[i], miss = number(&c, BY_NUMBER, i, h) * h * h / (1.2 * 1.2) - 1.0;
+    double h = c.h[i], miss = number(&c, SPH_SMOOTHING_NUMBER, i, h) * h * h / (1.2 * 1.2) - 1.0;
     if (fabs(miss) <= 2e-10) continue;
     off++;
     assert_true(fabs(miss) <= 1.01 * jump);
     double other = miss > 0.0 ? h * (1.0 - 1e-14) : h * (1.0 + 1e-14);
-    assert_true((number(&c, BY_NUMBER, i, other) * other * other < 1.2 * 1.2) == (miss > 0.0));
+    assert_true((number(&c, SPH_SMOOTHING_NUMBER, i, other) * other * other < 1.2 * 1.2) ==
+                (miss > 0.0));
   }
   assert_int_equal(off, result.jumps);
   assert_true(off > 0 && off < MANY / 100);
@@ -346,7 +348,7 @@ static void test_alone(void **state) {
     for (int64_t n = 1; n <= enough[dim]; n++) {
       cloud c = open_cloud((recipe){.dim = dim, .n = n});
       for (int64_t k = 0; k < n * dim; k++) c.x[k] = noise(k);
-      sph_adapt_options o = options_of(BY_NUMBER, 1.2);
+      sph_adapt_options o = options_of(SPH_SMOOTHING_NUMBER, 1.2);
       sph_adapt_result result;
       if (n < enough[dim]) {
         refused(&c, &o, SPH_ERR_NUMERIC, "no h for particle 0: too few");
@@ -356,7 +358,7 @@ static void test_alone(void **state) {
         assert_int_equal(result.first_kept, 0);
         for (int64_t i = 0; i < n; i++) {
           check_close(c.h[i], 1.0, 0.0);
-          check_rel(c.rho[i], number(&c, BY_NUMBER, i, 1.0), 1e-13);
+          check_rel(c.rho[i], number(&c, SPH_SMOOTHING_NUMBER, i, 1.0), 1e-13);
         }
         o.h_max = 2.5;
         check_ok(adapt(&c, &o, &result));
@@ -364,7 +366,7 @@ static void test_alone(void **state) {
         for (int64_t i = 0; i < n; i++) check_close(c.h[i], 2.5, 0.0);
       } else {
         check_ok(adapt(&c, &o, &result));
-        check_roots(&c, BY_NUMBER, 1.2);
+        check_roots(&c, SPH_SMOOTHING_NUMBER, 1.2);
       }
       close_cloud(&c);
     }
@@ -375,7 +377,7 @@ static void test_debris(void **state) {
   (void)state;
   for (int bound = 0; bound < 2; bound++) {
     cloud c = random_cloud((recipe){.dim = 2, .n = N, .method = SPH_NEIGHBORS_TREE});
-    sph_adapt_options o = options_of(BY_NUMBER, 1.2);
+    sph_adapt_options o = options_of(SPH_SMOOTHING_NUMBER, 1.2);
     sph_adapt_result result;
     c.x[2 * 17] = 1000.0;
     if (bound) o.h_max = 0.5;
@@ -384,9 +386,9 @@ static void test_debris(void **state) {
     if (bound)
       check_close(c.h[17], 0.5, 0.0);
     else
-      check_rel(c.h[17], bisected(&c, BY_NUMBER, 1.2, 17), 1e-9);
+      check_rel(c.h[17], bisected(&c, SPH_SMOOTHING_NUMBER, 1.2, 17), 1e-9);
     assert_true(bound || c.h[17] > 500.0);
-    check_rel(c.h[18], bisected(&c, BY_NUMBER, 1.2, 18), 1e-9);
+    check_rel(c.h[18], bisected(&c, SPH_SMOOTHING_NUMBER, 1.2, 18), 1e-9);
     close_cloud(&c);
   }
 }
@@ -398,13 +400,13 @@ static void test_coincident(void **state) {
   for (int32_t dim = 1; dim <= 3; dim++)
     for (int64_t together = 2; together <= 6; together++) {
       cloud c = random_cloud((recipe){.dim = dim, .n = N});
-      sph_adapt_options o = options_of(BY_NUMBER, 1.2);
+      sph_adapt_options o = options_of(SPH_SMOOTHING_NUMBER, 1.2);
       sph_adapt_result result;
       for (int64_t k = 0; k < together; k++)
         memcpy(c.x + (60 + k) * dim, c.x + 60 * dim, (size_t)dim * sizeof(double));
       if (together <= most[dim]) {
         check_ok(adapt(&c, &o, NULL));
-        check_roots(&c, BY_NUMBER, 1.2);
+        check_roots(&c, SPH_SMOOTHING_NUMBER, 1.2);
       } else {
         double h = c.h[61];
         refused(&c, &o, SPH_ERR_NUMERIC, "no h for particle 60: too many particles at its place");
@@ -429,7 +431,7 @@ static void test_box_and_budget(void **state) {
   cloud c = open_cloud((recipe){.dim = 2, .n = 3, .period = 1.0});
   for (int k = 0; k < 6; k++) c.x[k] = noise(k);
   for (int i = 0; i < 3; i++) c.h[i] = 10.0;
-  sph_adapt_options o = options_of(BY_NUMBER, 1.2);
+  sph_adapt_options o = options_of(SPH_SMOOTHING_NUMBER, 1.2);
   refused(&c, &o, SPH_ERR_NUMERIC, "no h for particle 0: the periodic box");
   o.keep = 1;
   check_status(adapt(&c, &o, NULL), SPH_ERR_LIMIT); /* the kept h does not fit either */
@@ -439,7 +441,7 @@ static void test_box_and_budget(void **state) {
   check_close(c.h[0], 0.2, 0.0);
   close_cloud(&c);
   c = random_cloud((recipe){.dim = 2, .n = N});
-  o = options_of(BY_NUMBER, 1.2);
+  o = options_of(SPH_SMOOTHING_NUMBER, 1.2);
   o.max_evaluations = 2;
   refused(&c, &o, SPH_ERR_NUMERIC, "max_evaluations are spent");
   close_cloud(&c);
@@ -457,7 +459,7 @@ static void test_box_and_budget(void **state) {
 static void test_options(void **state) {
   (void)state;
   cloud c = random_cloud((recipe){.dim = 2, .n = N});
-  sph_adapt_options o = options_of(BY_NUMBER, 1.2);
+  sph_adapt_options o = options_of(SPH_SMOOTHING_NUMBER, 1.2);
   TRY(smoothing, 2, "smoothing = 2");
   TRY(smoothing, 4, "smoothing = 4");
   TRY(eta, 0.0, "eta = 0");
@@ -487,7 +489,7 @@ static void test_other_list(void **state) {
   cloud c = random_cloud((recipe){.dim = 2, .n = N});
   sph_neighbors *good = c.list;
   sph_neighbors_options no;
-  sph_adapt_options o = options_of(BY_NUMBER, 1.2);
+  sph_adapt_options o = options_of(SPH_SMOOTHING_NUMBER, 1.2);
   sph_neighbors_options_init(&no);
   check_ok(sph_neighbors_create(c.ctx, &no, &c.list));
   refused(&c, &o, SPH_ERR_ARG, "SPH_H_MAX");

@@ -1,6 +1,8 @@
 /* Particle layouts: lattices against counting and distances, layouts about holes against their
- * radii, jitter against its moments; refusals. Volumes: test_layout_volumes.c. */
+ * radii, jitter against its moments; refusals and memory. Volumes:
+ * test_layout_volumes.c. */
 #include "../layout_help.h"
+#include "../oom.h"
 
 /* ---- lattices ---------------------------------------------------------------------------- */
 
@@ -338,6 +340,29 @@ static void test_jitter_refusals(void **state) {
   sph_context_destroy(ctx);
 }
 
+/* A call that fails for want of memory writes nothing. */
+static sph_status make_layouts(sph_context *ctx, void *user) {
+  const sph_lattice_options box = lattice_of(2, SPH_LATTICE_HEXAGONAL, SPH_LATTICE_FACES, 0.1);
+  double x[2 * 2000];
+  (void)user;
+  for (int k = 0; k < 4000; ++k) x[k] = 7.0;
+  int64_t n = -1;
+  sph_status s = sph_layout_lattice(ctx, &box, 2000, x, &n);
+  for (int k = 0; k < 3 && !s; ++k) {
+    const sph_hole_layout_options o = plate(all_kinds[k], 9, nine, 0.06);
+    for (int i = 0; i < 4000; ++i) x[i] = 7.0;
+    n = -1;
+    s = sph_layout_holes(ctx, &o, 2000, x, &n);
+  }
+  assert_true((x[0] == 7.0) == (s != SPH_OK) && (n == -1) == (s != SPH_OK));
+  return s;
+}
+
+static void test_memory(void **state) {
+  (void)state;
+  oom_sweep(make_layouts, NULL);
+}
+
 static const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_cartesian),
     cmocka_unit_test(test_hexagonal),
@@ -351,5 +376,6 @@ static const struct CMUnitTest tests[] = {
     cmocka_unit_test(test_lattice_refusals),
     cmocka_unit_test(test_hole_refusals),
     cmocka_unit_test(test_jitter_refusals),
+    cmocka_unit_test(test_memory),
 };
 SPH_TEST_MAIN(tests)

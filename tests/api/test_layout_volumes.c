@@ -226,7 +226,6 @@ static void test_volume_refusals(void **state) {
   BAD(o.levels = -1, SPH_ERR_ARG, "levels is -1");
   BAD((o.holes = 2, o.hole = overlapping), SPH_ERR_ARG, "overlap");
   BAD((o.dim = 3, o.holes = 1, o.hole = centre_hole), SPH_ERR_ARG, "3-D");
-  BAD((o.dim = 3, o.inside = in_disc), SPH_ERR_UNSUPPORTED, "inside");
   BAD((x[2] = 0.1, x[3] = 0.1), SPH_ERR_ARG, "where particle 0 is");
   BAD(x[3] = NAN, SPH_ERR_ARG, "particle 1");
 #undef BAD

@@ -15,6 +15,8 @@
   X(tl_step_set, PARTICLES, sph_total_lagrangian_step(g.tl, h, 0.0, 1.0))               \
   X(tl_energy, TOTAL_LAGRANGIAN, sph_total_lagrangian_energy(h, SET, 0.0, &g.energies)) \
   X(tl_energy_set, PARTICLES, sph_total_lagrangian_energy(g.tl, h, 0.0, &g.energies))   \
+  X(tl_balance, TOTAL_LAGRANGIAN, sph_total_lagrangian_balance(h, SET, 0.0, &g.ledger)) \
+  X(tl_balance_set, PARTICLES, sph_total_lagrangian_balance(g.tl, h, 0.0, &g.ledger))   \
   X(lattice, CONTEXT, sph_layout_lattice(h, &g.lattice, 0, NULL, &g.found))             \
   X(holes, CONTEXT, sph_layout_holes(h, &g.holes, 0, NULL, &g.found))                   \
   X(jitter, CONTEXT, sph_layout_jitter(h, 1, 0.1, 1, NULL, NULL, 1, g.out))             \

@@ -273,6 +273,7 @@ static void test_inits(void **state) {
   TRY(sph_ghosts_options_init_sized)
   TRY(sph_stress_points_options_init_sized)
   TRY(sph_total_lagrangian_options_init_sized)
+  TRY(sph_total_lagrangian_ledger_init_sized)
 #undef TRY
   for (int k = 0; k < 4; k++) assert_int_equal(small.bytes[k], 0xaa);
 }

@@ -1,6 +1,7 @@
 /* Terms of variable smoothing lengths in a composed right-hand side: fused they give what the
  * operators give one by one, for any set of terms and of rates; the velocity gradient that the
  * materials get; what is refused. */
+#include "../oom.h"
 #include "../rhs_help.h"
 
 enum { SMOOTHED = 1, STRESS = 2, LOSS = 4 };
@@ -235,6 +236,39 @@ static void test_velocity_gradient(void **state) {
   sph_context_destroy(ctx);
 }
 
+/* --- memory ---------------------------------------------------------------------------------- */
+
+/* All terms with a stress rate; a second call has what it needs. */
+static sph_status scenario(sph_context *ctx, void *user) {
+  sph_term t = rh_term(SPH_TERM_STRESS_RATE, 0, 0);
+  double *out = (double *)user;
+  oom_pause();
+  rh_system s = make_system(ctx, 2, RH_VARY_ALL, 1);
+  sph_rhs *rhs = make_rhs(&s, SMOOTHED | STRESS | LOSS, SPH_SMOOTHING_NUMBER);
+  sph_material *law = strain_law(ctx);
+  const sph_rate list[] = {
+      {SPH_FIELD_V, out}, {SPH_FIELD_SIGMA, out + 1000}, {SPH_FIELD_E, out + 2000}};
+  check_ok(sph_rhs_add(rhs, &t));
+  check_ok(sph_rhs_set_material(rhs, 0, law));
+  oom_resume();
+  sph_status status = sph_rhs_evaluate(rhs, s.set, s.list, 0.0, list, 3);
+  oom_pause();
+  int64_t allocations = oom.allocations;
+  if (!status) check_ok(sph_rhs_evaluate(rhs, s.set, s.list, 0.0, list, 3));
+  assert_int_equal(oom.allocations, allocations);
+  sph_material_destroy(law);
+  sph_rhs_destroy(rhs);
+  rh_free(&s);
+  oom_resume();
+  return status;
+}
+
+static void test_memory(void **state) {
+  static double out[3000];
+  (void)state;
+  oom_sweep(scenario, out);
+}
+
 /* --- refusals -------------------------------------------------------------------------------- */
 
 static void refused(sph_context *ctx, sph_status got, const char *words) {
@@ -338,8 +372,11 @@ static void test_list_refused(void **state) {
   sph_context_destroy(ctx);
 }
 
-static const struct CMUnitTest tests[] = {
-    cmocka_unit_test(test_against_operators), cmocka_unit_test(test_beside_others),
-    cmocka_unit_test(test_velocity_gradient), cmocka_unit_test(test_term_refusals),
-    cmocka_unit_test(test_missing_fields),    cmocka_unit_test(test_list_refused)};
+static const struct CMUnitTest tests[] = {cmocka_unit_test(test_against_operators),
+                                          cmocka_unit_test(test_beside_others),
+                                          cmocka_unit_test(test_velocity_gradient),
+                                          cmocka_unit_test(test_term_refusals),
+                                          cmocka_unit_test(test_memory),
+                                          cmocka_unit_test(test_missing_fields),
+                                          cmocka_unit_test(test_list_refused)};
 SPH_TEST_MAIN(tests)

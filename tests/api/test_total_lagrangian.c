@@ -1,85 +1,9 @@
 /* The scheme total_lagrangian: what it prepares, its leapfrog against a step by hand, what it keeps
  * over many periods, failures, memory, threads. */
 #include "../oom.h"
-#include "../rhs_help.h"
+#include "../total_lagrangian_help.h"
 
-typedef struct tl_body {
-  sph_context *ctx; /* the caller's */
-  sph_material *material;
-  sph_particles *set;
-  sph_total_lagrangian *tl;
-} tl_body;
-
-enum { SIDE = 6 };
-
-static sph_material *rubber(sph_context *ctx, int32_t dim) {
-  sph_hyperelastic_options o;
-  sph_material *m = NULL;
-  sph_hyperelastic_options_init(&o);
-  o.young = 2.0;
-  o.poisson = 0.3;
-  o.density = 1.1;
-  o.reduction = dim == 1 ? SPH_UNIAXIAL_STRESS : dim == 2 ? SPH_PLANE_STRAIN : SPH_SOLID;
-  check_ok(sph_material_create_hyperelastic(ctx, &o, &m));
-  return m;
-}
-
-static double *values(const tl_body *b, int32_t field) {
-  double *a = NULL;
-  check_ok(sph_particles_field(b->set, field, &a));
-  return a;
-}
-
-/* A free block of spacing 1/2, slightly jittered, with velocities that deform and turn it. */
-static void fill(tl_body *b, int32_t dim, double speed) {
-  sph_particles_options o;
-  sph_particles_options_init(&o);
-  o.dim = dim;
-  int64_t n = dim == 1 ? SIDE : dim == 2 ? SIDE * SIDE : SIDE * SIDE * SIDE;
-  check_ok(sph_particles_create(b->ctx, &o, &b->set));
-  check_ok(sph_particles_add(b->set, n, NULL));
-  double *x = values(b, SPH_FIELD_X), *v = values(b, SPH_FIELD_V);
-  double *m = values(b, SPH_FIELD_M), *rho = values(b, SPH_FIELD_RHO);
-  rh_seed = 9;
-  for (int64_t i = 0; i < n; i++) {
-    int64_t k = i;
-    for (int a = 0; a < dim; a++, k /= SIDE)
-      x[i * dim + a] = 0.5 * ((double)(k % SIDE) + rh_random(-0.05, 0.05));
-    for (int a = 0; a < dim; a++)
-      v[i * dim + a] = speed * (sin(2.0 * x[i * dim + (a + 1) % dim]) + 0.3 * a);
-    m[i] = 1.1 * pow(0.5, dim);
-    rho[i] = 1.1;
-  }
-}
-
-static tl_body make(sph_context *ctx, int32_t dim, sph_total_lagrangian_options *o, double speed) {
-  tl_body b = {.ctx = ctx, .material = rubber(ctx, dim)};
-  o->dim = dim;
-  check_ok(sph_total_lagrangian_create(ctx, o, b.material, &b.tl));
-  fill(&b, dim, speed);
-  check_ok(sph_total_lagrangian_start(b.tl, b.set));
-  return b;
-}
-
-static void unmake(tl_body *b) {
-  sph_total_lagrangian_destroy(b->tl);
-  sph_particles_destroy(b->set);
-  sph_material_destroy(b->material);
-}
-
-static sph_total_lagrangian_options defaults(void) {
-  sph_total_lagrangian_options o;
-  sph_total_lagrangian_options_init(&o);
-  return o;
-}
-
-static double total(const tl_body *b, double t) {
-  sph_total_lagrangian_energies e = {.size = sizeof e};
-  check_ok(sph_total_lagrangian_energy(b->tl, b->set, t, &e));
-  return e.kinetic + e.strain + e.hourglass + e.gravity;
-}
-
-/* ---- preparing ------------------------------------------------------------------------------ */
+/* ---- preparing ------------------------------------------------------------------------------- */
 
 static void test_start(void **state) {
   (void)state;
@@ -115,7 +39,7 @@ static void test_start(void **state) {
   sph_context_destroy(ctx);
 }
 
-/* ---- a step --------------------------------------------------------------------------------- */
+/* ---- a step ---------------------------------------------------------------------------------- */
 
 /* Kick, drift, kick with the right-hand side that was handed out. */
 static void step_by_hand(const tl_body *b, double t, double dt, double *a) {
@@ -211,7 +135,7 @@ static void test_reversible(void **state) {
   sph_context_destroy(ctx);
 }
 
-/* ---- conservation --------------------------------------------------------------------------- */
+/* ---- conservation ---------------------------------------------------------------------------- */
 
 typedef struct sums {
   double linear[3], angular[3];
@@ -321,7 +245,7 @@ static void test_gravity_and_viscosity(void **state) {
   sph_context_destroy(ctx);
 }
 
-/* ---- machines ------------------------------------------------------------------------------- */
+/* ---- machines -------------------------------------------------------------------------------- */
 
 static void test_threads(void **state) {
   (void)state;
@@ -342,7 +266,7 @@ static void test_threads(void **state) {
   free(x[1]);
 }
 
-/* ---- failures ------------------------------------------------------------------------------- */
+/* ---- failures -------------------------------------------------------------------------------- */
 
 static int32_t refuse_later(void *user, double t, sph_particles *set, const sph_rate *rates,
                             int32_t count) {
@@ -495,7 +419,7 @@ static void test_empty(void **state) {
   sph_context_destroy(ctx);
 }
 
-/* ---- memory --------------------------------------------------------------------------------- */
+/* ---- memory ---------------------------------------------------------------------------------- */
 
 static sph_status starved(sph_context *ctx, void *user) {
   sph_total_lagrangian_options o = defaults();
