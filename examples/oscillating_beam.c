@@ -16,15 +16,17 @@
  *   rad/s (the sources say Hz). Plane stress, finite elements: 2008.2 and 1026.2 rad/s, 2.8 % and
  *   0.7 % less, to which a good solver converges.
  *
- * Expected    d = 0.1 m, V_f <= .005: 2.5 % below plane stress at dp = 1/100, 1.4 % at 1/200, 1.5
- *   % at 1/300: what is left is artificial stress, which takes 18 % of the gradients of tension
- *   and with it 2.3 % of omega at any dp (given with f = 1 at 0.75 dp: a third of that). Without
- *   it, and with a lattice of cells (nothing on the faces, so that the mass is exact), the error
- *   converges at a rate of 1.3; but then strains of 10 % (V_f = 0.05) tear particles apart. The
- *   total-Lagrangian scheme needs none: 1.6 %, 0.7 %, 0.4 % at all V_f, a rate of 1.2.
+ * Expected    V_f <= .005: 2.5 %, 1.4 %, 1.5 % below plane stress at dp = 1/100, 1/200, 1/300 m
+ *   (d = 0.1), within .2 % at 1/300 (d = 0.05). What is left is artificial stress, which takes 18 %
+ *   of the gradients of tension and with it 2.3 % of omega at any dp (given with f = 1 at 0.75 dp:
+ *   a third of that), and, against it, a lattice deeper by dp. Without it, and with a lattice of
+ *   cells (nothing on the faces, so that the mass is exact), the error converges at a rate of 1.2;
+ *   but then strains of 10 % (V_f = 0.05) tear particles apart. The total-Lagrangian scheme needs
+ *   none: 1.6 %, 0.7 %, 0.4 %, a rate of 1.2.
  *
  *   oscillating_beam                    three periods; tip.csv and, with gnuplot, a picture
- *   oscillating_beam validate | long    one RESULT line a figure; long: the published spacing */
+ *   oscillating_beam validate | long    one RESULT line a figure; long: the published spacing,
+ *                                       three periods for each row, a quarter of an hour */
 #include "common.h"
 
 #include <string.h>
