@@ -34,8 +34,12 @@ typedef struct tube_setup {
   double spacing;       /* D */
   int equal_masses;     /* 0: equal spacing */
   double frozen;        /* thickness of the layers beyond the ends */
+  int mirror[2];        /* 1: a reflecting wall at this end */
   double end;           /* time */
   double dt;            /* 0 (default): the scheme's own stable step */
+  double first;         /* first step, from which steps grow by an eighth each up to the stable one;
+                         * 0: the stable one. At rest that does not see how fast a large jump of
+                         * pressure is about to set light particles in motion */
   int32_t smoothing;    /* SPH_SMOOTHING_*; default NUMBER */
   int32_t density;      /* SPH_SHOCKS_*; default DIFFERENTIAL */
   sph_dissipation loss; /* default: that of the library, but without limit of the mass flux */
@@ -46,6 +50,7 @@ typedef struct tube {
   sph_context *ctx;
   sph_particles *set;
   sph_shocks *shocks;
+  sph_ghosts *ghosts;              /* NULL without walls */
   int64_t n;                       /* particles, frozen ones too */
   int64_t first[TUBE_REGIONS + 1]; /* of each region; n at the end */
   const double *x, *rho, *v, *p, *e;
@@ -181,6 +186,26 @@ static inline void tube_make_scheme(tube *t) {
   need(t->ctx, sph_shocks_create(t->ctx, t->set, &o, &t->shocks));
 }
 
+/* Reflecting walls at the ends that have one: mirror images reach as far as the kernel. */
+static inline void tube_make_walls(tube *t) {
+  const tube_setup *s = &t->setup;
+  sph_ghosts_options o;
+  if (!s->mirror[0] && !s->mirror[1]) return;
+  sph_ghosts_options_init(&o);
+  o.dim = 1;
+  o.support = sph_kernel_support(sph_shocks_kernel(t->shocks));
+  need(t->ctx, sph_ghosts_create(t->ctx, &o, &t->ghosts));
+  for (int end = 0; end < 2; ++end) {
+    sph_wall wall;
+    sph_wall_init(&wall);
+    wall.kind = SPH_WALL_SLIP;
+    wall.point[0] = end ? s->region[s->regions - 1].to : s->region[0].from;
+    wall.normal[0] = end ? -1.0 : 1.0;
+    if (s->mirror[end]) need(t->ctx, sph_ghosts_add_wall(t->ghosts, &wall, NULL));
+  }
+  need(t->ctx, sph_shocks_set_ghosts(t->shocks, t->ghosts));
+}
+
 /* Everything at time 0. */
 static inline void tube_create(tube *t, const tube_setup *setup) {
   sph_particles_options options;
@@ -192,6 +217,7 @@ static inline void tube_create(tube *t, const tube_setup *setup) {
   need(t->ctx, sph_particles_create(t->ctx, &options, &t->set));
   need(t->ctx, sph_particles_add(t->set, tube_count(t), NULL));
   tube_make_scheme(t);
+  tube_make_walls(t);
   for (int k = 0; k < setup->regions; ++k) {
     sph_material *law = tube_material(t->ctx, &setup->region[k].state);
     tube_fill(t, k, tube_energy(t->ctx, law, &setup->region[k].state));
@@ -203,15 +229,28 @@ static inline void tube_create(tube *t, const tube_setup *setup) {
 
 static inline void tube_destroy(tube *t) {
   sph_shocks_destroy(t->shocks);
+  sph_ghosts_destroy(t->ghosts);
   sph_particles_destroy(t->set);
   sph_context_destroy(t->ctx);
 }
 
 /* ---- running ----------------------------------------------------------------------------- */
 
+static inline sph_status tube_grow(tube *t) {
+  double dt = t->setup.first, stable = INFINITY;
+  sph_status status = SPH_OK;
+  while (!status && dt < stable && sph_shocks_time(t->shocks) + dt < t->setup.end) {
+    status = sph_shocks_step(t->shocks, dt, NULL);
+    if (!status) status = sph_shocks_stable_dt(t->shocks, &stable);
+    dt *= 1.125;
+  }
+  return status ? status : sph_shocks_run(t->shocks, t->setup.end, NULL, NULL);
+}
+
 static inline sph_status tube_steps(tube *t) {
   const tube_setup *s = &t->setup;
   const int64_t steps = s->dt > 0.0 ? llround(s->end / s->dt) : 0;
+  if (s->first > 0.0) return tube_grow(t);
   if (steps == 0) return sph_shocks_run(t->shocks, s->end, NULL, NULL);
   sph_status status = SPH_OK;
   for (int64_t k = 0; !status && k < steps; ++k)
