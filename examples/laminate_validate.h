@@ -1,4 +1,9 @@
-/* Part of laminate.c: the figures of the three plates, and their bounds. */
+/* Part of laminate.c: the figures of the three plates, and their bounds.
+ *
+ * `long` has the twenty particles per mm of the source, three times 54 000. `validate` has four,
+ * one row in a layer of epoxy, and checks what does not depend on resolution: conservation,
+ * pressures. Nothing peels while the epoxy is thinner than the support of 3.6 spacings, which needs
+ * fifteen. */
 #ifndef EXAMPLES_LAMINATE_VALIDATE_H
 #define EXAMPLES_LAMINATE_VALIDATE_H
 
@@ -79,17 +84,24 @@ static int validate_planar(const char *name, int32_t plate_material, double p) {
   return result_line(keys, s.p * 1e-9, p, RIEMANN, 0.05, 0);
 }
 
+/* At least (side > 0) or at most `limit`; only reported when coarse. */
+static int compare(const char *quantity, int full, double measured, int side, double limit) {
+  char keys[IMPACT_KEYS];
+  snprintf(keys, sizeof keys, "case=laminate quantity=%s", quantity);
+  if (full) return result_bound(keys, measured, side, limit, THESIS);
+  result_report(keys, measured, limit, THESIS, COARSE);
+  return 0;
+}
+
 /* The order of the openings, and that the laminate peels alone. */
-static int compare(const outcome *o) {
+static int compare_plates(const outcome *o, int full) {
   const double peeled[] = {o[0].front + o[0].rear, o[1].front + o[1].rear, o[2].front + o[2].rear};
-  int failed = result_bound("case=laminate quantity=opening_laminate_over_monolithic",
-                            o[1].opening / o[0].opening, 1, 1.0, THESIS);
-  failed += result_bound("case=laminate quantity=opening_monolithic_over_homogenised",
-                         o[0].opening / o[2].opening, 1, 1.0, THESIS);
-  failed += result_bound("case=laminate quantity=peeled_monolithic_over_laminate",
-                         peeled[0] / peeled[1], -1, 0.1, THESIS);
-  return failed + result_bound("case=laminate quantity=peeled_homogenised_over_laminate",
-                               peeled[2] / peeled[1], -1, 0.1, THESIS);
+  int failed = compare("opening_laminate_over_monolithic", full, o[1].opening / o[0].opening, 1, 1);
+  failed +=
+      compare("opening_monolithic_over_homogenised", full, o[0].opening / o[2].opening, 1, 1.0);
+  failed += compare("peeled_laminate_mm", full, peeled[1], 1, 1.0);
+  failed += compare("peeled_monolithic_mm", full, peeled[0], -1, 0.1 * peeled[1]);
+  return failed + compare("peeled_homogenised_mm", full, peeled[2], -1, 0.1 * peeled[1]);
 }
 
 static int validate(int full) {
@@ -98,7 +110,7 @@ static int validate(int full) {
   failed += validate_planar("epoxy", SPH_EPOXY, 38.1);
   failed += validate_planar("homogenised", SPH_HOMOGENISED, 46.2);
   for (int k = 0; k < PLATES; ++k) failed += validate_plate(k, full, &o[k]);
-  return failed + compare(o);
+  return failed + compare_plates(o, full);
 }
 
 #endif
