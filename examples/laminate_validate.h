@@ -2,8 +2,8 @@
  *
  * `long` has the twenty particles per mm of the source, three times 54 000. `validate` has four,
  * one row in a layer of epoxy, and checks what does not depend on resolution: conservation,
- * pressures. Nothing peels while the epoxy is thinner than the support of 3.6 spacings, which needs
- * fifteen. */
+ * pressures. Layers can part by themselves only where one of epoxy is thicker than the support, 3.6
+ * spacings: from fifteen per mm on. */
 #ifndef EXAMPLES_LAMINATE_VALIDATE_H
 #define EXAMPLES_LAMINATE_VALIDATE_H
 
