@@ -23,7 +23,7 @@
  * than at the start, the thickness of an epoxy layer, while the middle one is still in place.
  *
  *   laminate            the three plates with eight particles per mm, and pictures
- *   laminate validate   one RESULT line a figure, with four per mm; long: with twenty */
+ *   laminate validate   one RESULT line a figure, with four per mm; long: eight, twenty */
 #include "impact.h"
 
 enum { PLATES = 3, FRONT_SHEET = 1, MIDDLE_SHEET = 3, REAR_SHEET = 5 };
@@ -84,7 +84,7 @@ static const char picture[] =
     "unset colorbox\nset cbrange [0:5]\nset xlabel 'mm'\n"
     "set palette defined (0 'dark-orange', 1 'navy', 2 'forest-green', 3 'steelblue', \\\n"
     "  4 'forest-green', 5 'navy')\n"
-    "set xrange [-20:75]\nset yrange [-30:30]\n"
+    "set xrange [-20:100]\nset yrange [-30:30]\n"
     "do for [name in 'monolithic laminate homogenised'] {\n  set title name.', 30 us after "
     "impact'\n"
     "  plot name.'.csv' skip 1 using 1:2:3 with points pt 7 ps 0.15 palette\n}\n"
