@@ -75,7 +75,9 @@ typedef struct sph_shocks_options {
                * with another kernel: sph_kernel_equal_h() */
   int32_t adaptive;      /* default 1: h follows rho, with the factor omega. 0: H stays as the host
                           * filled it (0: eta (m/rho)^(1/d) of the start), omega is 1 */
-  double omega_floor;    /* >= 0; default 0.2 */
+  double omega_floor;    /* >= 0; default 0.2. Forces between neighbours grow as 1/omega^2: where a
+                          * solid tears, particles clump, and clumps with omega below about 0.26 were
+                          * seen to vibrate unstably at cfl 0.25; 0.5 is safe there */
   int32_t keep_unsolved; /* INTEGRAL: nonzero: a particle whose h is not found keeps the one it had
                           * and is counted in the ledger. 0 (default): the step fails */
   const sph_dissipation *dissipation; /* copied. NULL (default): the defaults there, in which
