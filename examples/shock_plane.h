@@ -69,7 +69,8 @@ static inline void plane_mirror(plane *s, int axis, double at, double into) {
   sph_ghosts_options o;
   sph_ghosts_options_init(&o);
   o.dim = 2;
-  o.support = 3.0; /* of the Gaussian */
+  o.support = 3.0;              /* of the Gaussian */
+  o.escape = SPH_ESCAPE_IGNORE; /* what noise carries through has no image until it is back */
   if (!s->ghosts) need(s->ctx, sph_ghosts_create(s->ctx, &o, &s->ghosts));
   sph_wall_init(&wall);
   wall.kind = SPH_WALL_SLIP;
