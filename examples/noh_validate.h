@@ -50,8 +50,8 @@ static int validate_spherical(int full) {
   failed += result_bound("case=noh quantity=spherical_rho_grows_towards_64 across=28",
                          fine.behind / coarse.behind, 1, 1.15, NOH);
   if (!full) return failed;
-  failed += validate_run(3, 48, &finest);
-  return failed + result_bound("case=noh quantity=spherical_rho_grows_towards_64 across=48",
+  failed += validate_run(3, 40, &finest);
+  return failed + result_bound("case=noh quantity=spherical_rho_grows_towards_64 across=40",
                                finest.behind / fine.behind, 1, 1.15, NOH);
 }
 

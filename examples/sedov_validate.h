@@ -34,8 +34,8 @@ static int validate(int full) {
   failed += validate_run(3, 16, &ball[0]) + validate_run(3, 28, &ball[1]);
   failed += check_order(3, 16, 28, ball[0], ball[1]);
   if (!full) return failed;
-  failed += validate_run(2, 200, &disc[2]) + check_order(2, 100, 200, disc[1], disc[2]);
-  return failed + validate_run(3, 48, &ball[2]) + check_order(3, 28, 48, ball[1], ball[2]);
+  failed += validate_run(2, 160, &disc[2]) + check_order(2, 100, 160, disc[1], disc[2]);
+  return failed + validate_run(3, 40, &ball[2]) + check_order(3, 28, 40, ball[1], ball[2]);
 }
 
 #endif
