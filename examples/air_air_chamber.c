@@ -73,6 +73,16 @@ static double shock_level(const chamber_profile *b) {
   return 0.5 * (most + 0.1);
 }
 
+/* Where the energy falls from that of the shocked outer gas, above 1.5, to that of the inner one,
+ * seen from outside: half way is 1.28. */
+static double contact_place(const chamber_profile *b) {
+  const double width = chamber_bins_end / CHAMBER_BINS, level = 1.28;
+  int k = CHAMBER_BINS - 1;
+  while (k > 0 && !(b->e[k] > 1.5)) --k;
+  while (k > 0 && !(b->e[k] < level)) --k;
+  return width * (k + 0.5 + (level - b->e[k]) / (b->e[k + 1] - b->e[k]));
+}
+
 /* ---- figures ----------------------------------------------------------------------------- */
 
 typedef struct outcome {

@@ -17,7 +17,8 @@
 #include <time.h>
 
 typedef struct plane {
-  double dp; /* side of a cell */
+  double dp;           /* side of a cell */
+  int32_t periodic[2]; /* of the scheme's options, for the walls; set before plane_mirror() */
   sph_context *ctx;
   sph_particles *set;
   sph_ghosts *ghosts; /* NULL: no walls */
@@ -69,6 +70,7 @@ static inline void plane_mirror(plane *s, int axis, double at, double into) {
   sph_ghosts_options o;
   sph_ghosts_options_init(&o);
   o.dim = 2;
+  for (int a = 0; a < 2; ++a) o.periodic[a] = s->periodic[a];
   o.support = 3.0;              /* of the Gaussian */
   o.escape = SPH_ESCAPE_IGNORE; /* what noise carries through has no image until it is back */
   if (!s->ghosts) need(s->ctx, sph_ghosts_create(s->ctx, &o, &s->ghosts));
