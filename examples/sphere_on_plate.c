@@ -16,7 +16,12 @@
  *               lead                         1.56        1.16       1.48     26.0,      30, 27
  *
  * Energy lost: below 3e-5 of the initial one in the source, up to 5.5 per cent in Hiermaier.
- * Expected: cloud and crater as in the source; how they are measured is ours, see impact.h.
+ * Measured, in a way that is ours, see impact.h: aluminium, four per mm, cloud 92.3 x 66.9 mm, L/W
+ * 1.38, crater 33.5 mm; copper, four per mm 1.60, 30.0 mm, six per mm 1.63, 29.0 mm; lead, four
+ * per mm 1.74, 29.0 mm; energy lost below 7e-6. Clouds behind the thin plates come out longer than
+ * in the source. Open: lead with six per mm runs away 0.5 us after the impact, in particles under
+ * tension with negative energy, where dp/drho at constant entropy is negative (no cut-off, as in
+ * the source; eos.h has minimum_pressure); steps then shrink without end.
  *
  *   sphere_on_plate            the three targets with five particles per mm, and pictures
  *   sphere_on_plate validate   one RESULT line a figure, with four per mm; long: with ten */
