@@ -181,6 +181,26 @@ SPH_API sph_integrator *sph_elastodynamics_integrator(sph_elastodynamics *solid)
 /* As above. Since 0.1. */
 SPH_API sph_kernel *sph_elastodynamics_kernel(sph_elastodynamics *solid);
 
+/* Checkpoints: the state of a run in a buffer of the host's, after which it continues bit for bit,
+ * in the same process or in another one. It holds all built-in fields that
+ * the scheme reads, of the real particles, time, ledger, and what the integrator keeps of earlier
+ * steps. Roles, phases, ghosts, hooks and fields of the host's own are not in it: create with the
+ * same options and materials for a set with as many particles, roles and phases in the same order,
+ * and restore instead of starting. Numbers are written as this machine has them; a sum over all
+ * bytes guards them.
+ *
+ * *bytes receives the size. SPH_ERR_ARG: bytes NULL. SPH_ERR_STATE: not started; SPH_ERR_NOMEM.
+ * Since 0.1. */
+SPH_API sph_status sph_elastodynamics_state_size(sph_elastodynamics *solid, size_t *bytes);
+/* Write it. The list is built anew by the next step, as in a restored run. SPH_ERR_ARG: buffer
+ * NULL, not aligned as doubles are, or shorter than the size. Others as above. Since 0.1. */
+SPH_API sph_status sph_elastodynamics_save(sph_elastodynamics *solid, void *buffer, size_t bytes);
+/* Take it up. SPH_ERR_ARG: buffer as above; not such a state, damaged, or of other options or
+ * another set: nothing has changed then but that the scheme must be started or restored again.
+ * SPH_ERR_STATE: a phase without material; SPH_ERR_NOMEM. Since 0.1. */
+SPH_API sph_status sph_elastodynamics_restore(sph_elastodynamics *solid, const void *buffer,
+                                              size_t bytes);
+
 /* Balances. The sums of the present state run over the real particles, walls included. What is
  * integrated since start is advanced by the integrator beside the fields, stage by stage; without
  * `audit` it is NaN. Integrals: sigma:D over volume m/rho; -m v.a of viscosity and artificial

@@ -25,14 +25,18 @@
  *   SSPRK3       3        3         2.51    1.73        2.48             0.57
  *   RK4, 3/8     4        4         2.785   2.828       4.06             0.63
  *   leapfrog     2        2 or 3    2, 3.09 2           2.87             -
+ *   predicted    2        1         1       0 (weak)    none (weak)      -
  *   RKC          2        s         0.653 (s^2 - 1)   0 (weak)   see below   6.1
  *
- * The published viscosity acts on approaching pairs only, which hides the limits: the runs of He
- * (250 particles) blow up at CFL 1.0 (Euler), 0.9 (PC2), 1.4 (RK4), after growing oscillation from
- * 0.7 on. "Weak": |P(i y)| = 1 + k y^4 (PC2, Heun: k = 1/8). */
+ * "Predicted" is the leapfrog with predicted values; where the force depends on X alone its
+ * imaginary limit is 2. The published viscosity acts on approaching pairs only, which hides the
+ * limits: the runs of He (250 particles) blow up at CFL 1.0 (Euler), 0.9 (PC2), 1.4 (RK4), after
+ * growing oscillation from 0.7 on. "Weak": |P(i y)| = 1 + k y^4 (PC2, Heun: k = 1/8; predicted:
+ * 1/4). */
 #ifndef SPH_INTEGRATOR_H
 #define SPH_INTEGRATOR_H
 
+#include <sph/operators.h>
 #include <sph/rhs.h>
 
 #ifdef __cplusplus
@@ -57,7 +61,8 @@ enum {
   SPH_INTEGRATOR_RK38 = 6,     /* 3/8 rule, order 4 (He table 4.2) */
   SPH_INTEGRATOR_BUTCHER = 7,  /* any explicit tableau of the host */
   SPH_INTEGRATOR_LEAPFROG = 8, /* kick-drift-kick, order 2; needs a V and an X field bound */
-  SPH_INTEGRATOR_RKC = 9       /* Runge-Kutta-Chebyshev, order 2, s >= 2 stages */
+  SPH_INTEGRATOR_RKC = 9,      /* Runge-Kutta-Chebyshev, order 2, s >= 2 stages */
+  SPH_INTEGRATOR_LEAPFROG_PREDICTED = 10 /* leapfrog with predicted values, order 2 */
 };
 
 /* Leapfrog. V is kicked, all other bound fields q (X, density, energy, stress) drift:
@@ -68,6 +73,25 @@ enum {
  * With forces that do not depend on velocity it is symplectic and reversible. The last evaluation
  * is not carried over into the next step: nobody can promise that the host changes nothing between.
  * Stable for omega dt < 2. */
+
+/* Leapfrog with predicted values: Zisis (I. Zisis, PhD thesis, TU Eindhoven 2017) 4.29 to 4.34.
+ * With y = all that is bound but X, and f^k = F(t^k, x^k, y^k),
+ *   y^(k+1/2) = y^(k-1/2) + f^k (dt^(k-1) + dt^k)/2,   at the start y^(1/2) = y^0 + f^0 dt^0/2;
+ *   x^(k+1) = x^k + v^(k+1/2) dt^k;   y^(k+1) = y^(k+1/2) + f^k dt^k/2, the prediction.
+ * (4.32 prints dt for the mean of the two steps, which holds for equal ones only.) What the rate of
+ * X has beyond V (XSPH) is integrated like y. One evaluation a step, order 2 whatever the
+ * sequence of steps. Where f depends on x alone this is the symplectic leapfrog, stable for omega
+ * dt < 2. What depends on y goes by Adams and Bashforth's second formula: a damping lambda is
+ * stable for lambda dt < 1, and a wave carried by y alone (density or stress against velocity, as
+ * in all SPH of evolved density) grows by 1 + (omega dt)^4/4 a step, which a viscosity must make
+ * up for.
+ *
+ * The half-step values live in the integrator, from step to step, by particle id: particles may be
+ * added (they start like the first step), removed and sorted in between. What a host adds to y
+ * between two steps goes to y^(k-1/2) as well. Values that jump, another set, or a time that does
+ * not follow on: sph_integrator_restart(). A set of another address restarts by itself. Takes plain
+ * arrays; V must be bound where X is. A step back over the last one, dt^k = -dt^(k-1), returns to
+ * the state before it up to rounding where f depends on x alone. */
 
 /* RKC (He 4.17; Verwer, Hundsdorfer, Sommeijer; rkc.f), F_k = F(t + c_k dt, Y_k):
  *
@@ -212,6 +236,33 @@ SPH_API sph_status sph_integrator_set_function(sph_integrator *it, sph_rhs_fn fn
  * use. It gives no rates for plain arrays: such a step answers SPH_ERR_STATE. Since 0.1. */
 SPH_API sph_status sph_integrator_set_rhs(sph_integrator *it, sph_rhs *rhs, sph_neighbors *list);
 
+/* Which copy of the state a filter is given. */
+enum {
+  SPH_COPY_STAGE = 1, /* in place, what the right-hand side sees next */
+  SPH_COPY_HALF = 2,  /* y^(k+1/2) of LEAPFROG_PREDICTED, the integrator's own; X has no entry */
+  SPH_COPY_RESULT = 3 /* in place, the end of the step */
+};
+
+/* Treat a copy of the bound values, in place: the return of stresses to a yield surface, a floor of
+ * the energy. copy is SPH_COPY_*; values[k] belongs to the k-th bound item, over the real
+ * particles; its array is the set's field itself but for HALF, where that of X is NULL. Answers and
+ * prohibitions are those of sph_rhs_fn; ghosts must stay, too. */
+typedef int32_t (*sph_filter_fn)(void *user, double t, sph_particles *set, int32_t copy,
+                                 const sph_rate *values, int32_t count);
+
+/* A filter for every copy of the state that later steps make: each stage and the result, and with
+ * LEAPFROG_PREDICTED the half-step values, before X moves by them, and the result (Zisis's radial
+ * return treats both). Tableaux and leapfrog combine rates, so that a filtered stage acts through
+ * its rate alone; RKC's recurrence reads the filtered stages themselves. A state that the filter
+ * leaves alone gives the same bits as without. fn NULL: none. fn and user must stay valid.
+ * SPH_ERR_STATE: within a step. Since 0.1. */
+SPH_API sph_status sph_integrator_set_filter(sph_integrator *it, sph_filter_fn fn, void *user);
+
+/* Forget earlier steps: half-step values (the next step is a first one), the eigenvalue estimate of
+ * RKC. Bound fields, right-hand side, filter and what was saved stay. SPH_ERR_STATE: within a step.
+ * Since 0.1. */
+SPH_API sph_status sph_integrator_restart(sph_integrator *it);
+
 typedef struct sph_step_info {
   size_t size;
   int32_t stages;      /* right-hand sides of the step proper */
@@ -252,9 +303,10 @@ SPH_API void sph_step_info_init_sized(sph_step_info *info, size_t size);
  * right-hand side is not in a power iteration. SPH_ERR_CALLBACK, and what the right-hand side
  * answers. SPH_ERR_NOMEM. In every such case the bound fields are as before the call, to the bit.
  *
- * Storage, kept: copies of the bound fields, one plus the stages of a tableau, four for leapfrog
- * and RKC; with eigenvalue estimates RKC one more, tableaux three more. A steady step allocates
- * nothing. The result has the same bits for any number of threads. Since 0.1. */
+ * Storage, kept: copies of the bound fields, one plus the stages of a tableau, four for both
+ * leapfrogs and RKC, LEAPFROG_PREDICTED 16 bytes a particle besides; with eigenvalue estimates RKC
+ * one more, tableaux three more. A steady step allocates nothing. The result has the same bits for
+ * any number of threads. Since 0.1. */
 SPH_API sph_status sph_integrator_step(sph_integrator *it, sph_particles *set, double t, double dt,
                                        sph_step_info *info);
 
@@ -266,6 +318,21 @@ SPH_API sph_status sph_integrator_step(sph_integrator *it, sph_particles *set, d
 SPH_API sph_status sph_integrator_save(sph_integrator *it, sph_particles *set);
 /* Put back what was saved; errors as above. Since 0.1. */
 SPH_API sph_status sph_integrator_restore(sph_integrator *it, sph_particles *set);
+
+/* The same in a buffer of the host's, for checkpoints that another process reads: what
+ * sph_integrator_save() keeps, bound values included. It is put back into an integrator with the
+ * same options and the same bindings, and a set with as many particles in the same order; the next
+ * steps then have the same bits. Numbers are written as this machine has them. *bytes receives the
+ * size. SPH_ERR_STATE: nothing bound; SPH_ERR_NOMEM. Since 0.1. */
+SPH_API sph_status sph_integrator_state_size(sph_integrator *it, sph_particles *set, size_t *bytes);
+/* Write it. SPH_ERR_ARG: buffer NULL, not aligned as doubles are, or shorter than the size; others
+ * as above. Since 0.1. */
+SPH_API sph_status sph_integrator_state_write(sph_integrator *it, sph_particles *set, void *buffer,
+                                              size_t bytes);
+/* Put it back. SPH_ERR_ARG also: not such a state, or of another method, bindings or number of
+ * particles; nothing has changed then. Since 0.1. */
+SPH_API sph_status sph_integrator_state_read(sph_integrator *it, sph_particles *set,
+                                             const void *buffer, size_t bytes);
 
 /* ---- Pure functions ---------------------------------------------------------------------- */
 
@@ -291,11 +358,34 @@ SPH_API int32_t sph_rkc_stages_cfl(double dt, double wave_speed, double spacing)
 /* By spectral radius: s = 1 + floor(sqrt(1 + dt radius / 0.653)), else as above. Since 0.1. */
 SPH_API int32_t sph_rkc_stages_radius(double dt, double radius);
 
+/* ---- Steps that a state allows ------------------------------------------------------------ */
+
 /* Largest stable step: cfl * min over the real particles of h_i / (c_i + |v_i|). Fields H, C, V as
  * far as they exist; particles with speed 0 do not count. SPH_ERR_ARG without H or with cfl not
  * positive and finite; SPH_ERR_NUMERIC: h not positive, a value not finite (the first such particle
- * is named), or no particle gives a finite step (all speeds 0, an empty set). O(n). Since 0.1. */
+ * is named), no particle gives a finite step (all speeds 0, an empty set), or the step is too small
+ * for a number (it is never 0). O(n). Since 0.1. */
 SPH_API sph_status sph_cfl_step(const sph_particles *set, double cfl, double *dt);
+
+/* The same by signals between neighbours, for shocks:
+ *   dt = courant min_i h_i / (c_i + max_j |v_ij . r_ij|),
+ * i over the rows, j over the neighbours within the list's cutoff, r_ij the unit vector. Zisis
+ * (section 4.3) has |v_i| in place of the maximum, which a uniform motion shortens, and prints
+ * min (v + c) / h, which is no time; he takes courant in 0.1 .. 0.3. Needs x, v, h and c (NULL: c0,
+ * which may be 0) of the operands. Errors as above, also SPH_ERR_STATE and SPH_ERR_STALE of the
+ * list; *dt is untouched then. SPH_ERR_NOMEM, SPH_ERR_VERSION. O(pairs), on the context's threads,
+ * same bits for any number; 8 bytes a row, given back. Since 0.1. */
+SPH_API sph_status sph_signal_step(sph_neighbors *list, const sph_operands *a, double courant,
+                                   double *dt);
+
+/* The step in which no density changes by more than the fraction `limit`: limit min_i rho_i /
+ * |drho_i|, infinity where nothing changes. rho, drho = d rho/dt: n, the host's. Zisis saw too
+ * low a density behind strong shocks where steps were long, and gives no rule; take limit = 0.1.
+ * SPH_ERR_ARG: n < 0, an array or dt NULL, limit not positive and finite. SPH_ERR_NUMERIC: rho not
+ * positive and finite, drho not finite (the first such particle is named), a step too small for a
+ * number. O(n), threads as above. Since 0.1. */
+SPH_API sph_status sph_density_step(sph_context *ctx, int64_t n, double limit, const double *rho,
+                                    const double *drho, double *dt);
 
 #ifdef __cplusplus
 }

@@ -126,7 +126,7 @@ SPH_API sph_status sph_layout_jitter(sph_context *ctx, int32_t dim, double ampli
                                      sph_inside_fn inside, void *inside_user, int64_t n, double *x);
 
 /* The region that the particles share: a box, less disjoint circular holes (2-D), less what is not
- * `inside` (1-D, 2-D). Holes may be cut by the faces of the box. */
+ * `inside`. Holes may be cut by the faces of the box. */
 typedef struct sph_region_options {
   size_t size;          /* set by sph_region_options_init() */
   int32_t dim;          /* 1, 2 or 3; must be given */
@@ -147,11 +147,12 @@ SPH_API void sph_region_options_init_sized(sph_region_options *options, size_t s
  * neighbours, nearest first, until none that is left could reach it. volumes: n, the host's.
  *
  * They add up to the measure of the region. A box, and a box with circular holes: exact, the sum to
- * 1e-12 relative. With `inside` the cells are halved `levels` times and what is left is cut
- * straight between the points where its edges cross the boundary (found by bisection, to 1e-9 of an
- * edge): for a smooth boundary of radius R and cells of size s the sum errs by about L (s /
- * 2^levels)^2 / (12 R), L its length; parts of the region thinner than s / 4 may be missed. What is
- * nearest to a particle is its own even across a hole or a slit.
+ * 1e-12 relative. With `inside` the cells are halved `levels` times (long ones more, down to the
+ * mean spacing s first) and what is left is cut straight between the points where its edges cross
+ * the boundary (found by bisection, to 1e-9 of an edge): for a smooth boundary of radius R the sum
+ * errs by about L (s / 2^levels)^2 / (12 R), L its length; in 3-D likewise with its area, and each
+ * level costs four times the one before: take 1 to 3. Parts of the region thinner than s / 4 may be
+ * missed. What is nearest to a particle is its own even across a hole or a slit.
  *
  * For particles on a plane of symmetry, of which the model has one side, double the volume.
  *
@@ -160,10 +161,120 @@ SPH_API void sph_region_options_init_sized(sph_region_options *options, size_t s
  * context's threads, same bits for any number of them.
  * SPH_ERR_ARG: an option out of range, not finite or not for this dim, holes that overlap (named),
  * n negative, an array NULL with n > 0, a particle not finite, outside the box, or at the same
- * place as another (the first is named). SPH_ERR_UNSUPPORTED: `inside` in 3-D. SPH_ERR_VERSION,
+ * place as another (the first is named). SPH_ERR_VERSION,
  * SPH_ERR_NOMEM. volumes are untouched then. Since 0.1. */
 SPH_API sph_status sph_layout_volumes(sph_context *ctx, const sph_region_options *options,
                                       int64_t n, const double *x, double *volumes);
+
+/* ---- centroidal layouts -------------------------------------------------------------------- */
+
+typedef struct sph_relax_options {
+  size_t size;        /* set by sph_relax_options_init() */
+  int32_t iterations; /* at most so many, >= 0; default 100 */
+  double tolerance;   /* it ends when no particle moves farther, in mean spacings, >= 0; default
+                       * 1e-3 */
+  double relaxation;  /* how far a particle goes, in distances to its centroid, 0 < w < 2; default
+                       * 1.5 */
+} sph_relax_options;
+/* Fill *options with the defaults. Since 0.1. */
+SPH_API void sph_relax_options_init_sized(sph_relax_options *options, size_t size);
+#define sph_relax_options_init(o) sph_relax_options_init_sized((o), sizeof(sph_relax_options))
+
+typedef struct sph_relax_result {
+  size_t size;
+  int32_t iterations; /* done */
+  double moved;       /* farthest way of a particle in the last one */
+  double energy;      /* sum_i int over cell i of |y - x_i|^2 dy, as it is now */
+  double smallest;    /* least and largest volume of a cell, as they are now */
+  double largest;
+} sph_relax_result;
+/* Fill *result with zeros. Since 0.1. */
+SPH_API void sph_relax_result_init_sized(sph_relax_result *result, size_t size);
+#define sph_relax_result_init(r) sph_relax_result_init_sized((r), sizeof(sph_relax_result))
+
+/* Move particles until each is the centroid of its Voronoi cell within the region (Lloyd's method,
+ * over-relaxed; Du, Faber, Gunzburger, SIAM Review 41 (1999) 637): even spacing that follows any
+ * boundary, half a spacing away from it. Cells become about equal, hexagons in 2-D; not exactly,
+ * nor is the layout found the best there is. Zisis (section 4.4) names this layout for arbitrary
+ * shapes and does not describe it.
+ *
+ * x: n * dim, in place, all of them within the region. volumes: NULL,
+ * or n, receives the volumes of the cells as sph_layout_volumes() gives them. options NULL:
+ * defaults. result: NULL, or initialised. The energy falls in every iteration, but for what halving
+ * misses where `inside` or holes cut cells (`levels`). A particle that would leave the region goes
+ * half of the way, and so on. Each iteration costs about one sph_layout_volumes().
+ *
+ * Errors as sph_layout_volumes(), also SPH_ERR_ARG for a particle that is not in the region (it is
+ * named). x, volumes and *result are as before then. On the context's threads, same bits for any
+ * number of them. Since 0.1. */
+SPH_API sph_status sph_layout_relax(sph_context *ctx, const sph_region_options *region,
+                                    const sph_relax_options *options, int64_t n, double *x,
+                                    double *volumes, sph_relax_result *result);
+
+/* ---- several materials --------------------------------------------------------------------- */
+
+/* What stands at a point: a phase 0 .. phases - 1, or a negative number for nothing. Pure, and
+ * called on several threads at once. */
+typedef int32_t (*sph_phase_fn)(void *user, const double *point);
+
+/* How a phase is filled: with a lattice SPH_LATTICE_* of its own, or
+ *   RELAXED   by sph_layout_relax() from a hexagonal lattice, of which as many particles are
+ *             dropped or added as the volume of the phase asks for */
+enum { SPH_LAYOUT_RELAXED = 3 };
+
+/* What particles of different phases have in common, Zisis section 4.4 (a) and (b):
+ *   MASS      spacing D_L in the phase of the lowest density rho_L, D_L (rho_L / rho)^(1/d) in the
+ *             others. The resolution of all is that of the lightest (misprinted in the source's
+ *             epitome). Better at contacts
+ *   SPACING   the same spacing everywhere, so that masses are as densities. Generic and cheap; take
+ *             number smoothing with it */
+enum { SPH_EQUAL_MASS = 1, SPH_EQUAL_SPACING = 2 };
+
+typedef struct sph_material_layout_options {
+  size_t size;           /* set by sph_material_layout_options_init() */
+  int32_t dim;           /* 1, 2 or 3; must be given */
+  int32_t kind;          /* SPH_LATTICE_CARTESIAN (default), _HEXAGONAL or SPH_LAYOUT_RELAXED */
+  int32_t equal;         /* SPH_EQUAL_MASS (default) or _SPACING */
+  double spacing;        /* > 0, a length: D_L, or that of all; must be given. A particle stands for
+                          * spacing^dim (hexagonal lattices: as sph_layout_lattice() has it) */
+  double lo[3], hi[3];   /* the box; lo < hi; default [0, 1] */
+  int32_t phases;        /* 1..256; default 1 */
+  const double *density; /* phases, > 0; NULL: all 1 */
+  const double *boxes;   /* NULL: the box for every phase; else phases * 2 * dim: lo, hi of a box
+                          * about each, on whose faces its lattice begins with half a spacing. What
+                          * lies outside stays empty. A phase in several parts whose lattices should
+                          * fit their edges is better made several phases */
+  sph_phase_fn phase;    /* NULL: each phase fills its own box (without boxes: the one phase all) */
+  void *phase_user;
+  int32_t levels;                 /* of halving, RELAXED: as in sph_region_options; default 3 */
+  const sph_relax_options *relax; /* RELAXED; NULL: its defaults */
+} sph_material_layout_options;
+/* Fill *options with the defaults. Since 0.1. */
+SPH_API void sph_material_layout_options_init_sized(sph_material_layout_options *options,
+                                                    size_t size);
+#define sph_material_layout_options_init(o) \
+  sph_material_layout_options_init_sized((o), sizeof(sph_material_layout_options))
+
+/* Particles of several materials, phase by phase. x: capacity * dim, phase and volume: capacity
+ * each, the host's; all three NULL with capacity 0 only counts (RELAXED: measures the phases, but
+ * does not relax). *n receives their number. The mass of a particle is density * volume.
+ *
+ * volume, for lattices: the cell of the lattice, also for particles at an edge of the phase, so
+ * that masses are exactly equal where the lattices fit their boxes; the sum is that of the phase
+ * where it fills its box. For RELAXED: the Voronoi cell within the phase, whose sum is the volume
+ * of the phase (to the halving, and but for what lies more than two spacings from its particles);
+ * with MASS give each the mean of its phase where all masses must be equal: they then differ
+ * between phases by the rounding of counts, 1 / (2 n) relative at most.
+ *
+ * SPH_ERR_ARG: an option out of range or not finite (named), phases without `phase` and boxes,
+ * capacity negative, an array NULL, a phase beyond `phases` (named). SPH_ERR_LIMIT: more than
+ * capacity, or 2^31 - 64. SPH_ERR_VERSION,
+ * SPH_ERR_NOMEM. Outputs are untouched then. O(points of the lattices), RELAXED as above. Same bits
+ * for any number of threads. Since 0.1. */
+SPH_API sph_status sph_layout_materials(sph_context *ctx,
+                                        const sph_material_layout_options *options,
+                                        int64_t capacity, double *x, int32_t *phase, double *volume,
+                                        int64_t *n);
 
 #ifdef __cplusplus
 }

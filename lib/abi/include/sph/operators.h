@@ -25,8 +25,9 @@ extern "C" {
 /* Arrays of n particles in host order, the host's, none of them kept or copied.
  *
  * A scalar array that is NULL means its uniform value everywhere: m0, rho0, h0, c0, which must then
- * be positive and finite, or p0. Vectors and tensors that an operator needs may not be NULL; what
- * it does not need is not looked at. Every operator needs x and h; beyond these
+ * be positive and finite; p0 or e0, finite; omega0, positive, or 0 for 1. Vectors and tensors that
+ * an operator needs may not be NULL; what it does not need is not looked at. Every operator needs x
+ * and h; beyond these
  *
  *   density summation                       m
  *   continuity                              v, m; VOLUME also rho
@@ -37,6 +38,7 @@ extern "C" {
  *   Monaghan's viscosity                    v, m, rho, c
  *   bulk viscosity                          v, m, rho; c for its linear and Hernquist-Katz terms
  *   total-Lagrangian operators              m, rho, gradient_matrix; hourglass control also c
+ *   variable smoothing lengths              see smoothing.h; alone these read e and omega
  *
  * h is that of the build: a larger one misses pairs, which goes unnoticed. */
 typedef struct sph_operands {
@@ -59,6 +61,10 @@ typedef struct sph_operands {
   const double *sigma;           /* n packed symmetric */
   const double *gradient_matrix; /* NULL, or from sph_gradient_matrix(): corrects gradients. Of the
                                   * rows; CONSERVATIVE reads all n. dim * dim each */
+  const double *e;               /* specific internal energy */
+  double e0;
+  const double *omega; /* factor of a variable smoothing length (smoothing.h) */
+  double omega0;
 } sph_operands;
 
 /* Fill *operands with the defaults: arrays NULL, numbers 0 (rows -1). Since 0.1. */

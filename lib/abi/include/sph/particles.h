@@ -39,7 +39,8 @@ enum {
   SPH_FIELD_A = 10,       /* acceleration, dim */
   SPH_FIELD_SPACING = 11, /* initial particle spacing, 1 */
   SPH_FIELD_F = 12,       /* deformation gradient dx/dX, dim * dim, row-major */
-  SPH_FIELD_PK = 13       /* first Piola-Kirchhoff stress, dim * dim, row-major */
+  SPH_FIELD_PK = 13,      /* first Piola-Kirchhoff stress, dim * dim, row-major */
+  SPH_FIELD_OMEGA = 14    /* factor of a variable smoothing length (smoothing.h), 1 */
 };
 
 enum { SPH_ROLE_REAL = 0, SPH_ROLE_GHOST = 1, SPH_ROLE_WALL = 2, SPH_ROLE_BODY = 3 };
@@ -117,7 +118,7 @@ SPH_API sph_status sph_particles_add_field(sph_particles *set, const char *name,
                                            int32_t *field);
 
 /* Id of a field by name (built-in ones are "x", "v", "m", "rho", "h", "p", "c", "e", "sigma", "x0",
- * "a", "spacing", "F", "PK"); -1 when there is none. Since 0.1. */
+ * "a", "spacing", "F", "PK", "omega"); -1 when there is none. Since 0.1. */
 SPH_API int32_t sph_particles_find_field(const sph_particles *set, const char *name);
 
 /* Components of a field; 0 when unknown. Since 0.1. */

@@ -7,8 +7,8 @@
  *   sph_rhs_evaluate(rhs, set, list, t, rates, 3);
  *
  * The formulas and their sources stand at the operators of the same name. All built-in terms take
- * one sweep; kernel-gradient matrices, when any term is corrected, and the divergence for the bulk
- * viscosity take one more each. */
+ * one sweep, those of variable smoothing lengths one of their own; kernel-gradient matrices, when
+ * any term is corrected, and the divergence for the bulk viscosity take one more each. */
 #ifndef SPH_RHS_H
 #define SPH_RHS_H
 
@@ -36,7 +36,16 @@ enum {
   /* c where SUMMED; V; form SPH_PIOLA_*: F from X and X0, P from the phase's material (or from
    * SIGMA, see below), then the divergence of P. */
   SPH_TERM_FIRST_PIOLA = 11,
-  SPH_TERM_HOURGLASS = 12 /* V; form SPH_HOURGLASS_*; alpha, and E_i = rho_i c_i^2 */
+  SPH_TERM_HOURGLASS = 12, /* V; form SPH_HOURGLASS_*; alpha, and E_i = rho_i c_i^2 */
+  /* Variable smoothing lengths (smoothing.h); one sweep for all of them, beside that of the terms
+   * above. The list's rule must be SPH_H_MAX or SPH_H_AVERAGE where h differs. */
+  SPH_TERM_SMOOTHED = 13, /* RHO, V, E, whichever are asked for: sph_smoothed_pressure(); form
+                           * SPH_SMOOTHING_*; the field OMEGA where the set has it, else 1 */
+  SPH_TERM_SMOOTHED_STRESS = 14, /* V, E: sph_smoothed_stress(), SIGMA being the deviator.
+                                  * SPH_TERM_STRESS_RATE then takes its velocity gradient, by h_i,
+                                  * unless it is corrected; phases whose materials have no stress
+                                  * rate are fluids, their rate is 0 */
+  SPH_TERM_DISSIPATION = 15      /* RHO, V, E: sph_smoothed_dissipation(); dissipation */
 };
 
 /* Total-Lagrangian elasticity. With position_field X0 all pairs are those of X0: RHO, H, M (and the
@@ -86,6 +95,7 @@ typedef struct sph_term {
   double vector[3];     /* body force per mass; the first dim entries */
   int32_t power;        /* artificial stress: n, 1..16; default 4 */
   double spacing_ratio; /* artificial stress: dp / h, so that W(dp) follows each pair's h */
+  const struct sph_dissipation *dissipation; /* its options, copied; default NULL: its defaults */
 } sph_term;
 
 /* Fill *term with the defaults. Since 0.1. */
@@ -194,6 +204,22 @@ SPH_API sph_status sph_rhs_set_finish(sph_rhs *rhs, sph_rhs_hook fn, void *user)
  * terms 8 bytes a stored pair (16 with CENTRAL) and at most 256 bytes a particle. Since 0.1. */
 SPH_API sph_status sph_rhs_evaluate(sph_rhs *rhs, sph_particles *set, sph_neighbors *list, double t,
                                     const sph_rate *rates, int32_t count);
+
+/* The laws by themselves, for schemes that need more than an evaluation gives: fill the field P or
+ * C of the real particles with the pressures or sound speeds of their phases' materials; phases
+ * without such a law are left alone. O(n), on the context's threads. SPH_ERR_ARG: another field, an
+ * array that a law needs and that the set lacks. SPH_ERR_NUMERIC (the first particle is named),
+ * SPH_RETRY, SPH_ERR_CALLBACK: from materials; the field is undefined then. Since 0.1. */
+SPH_API sph_status sph_rhs_fill(sph_rhs *rhs, sph_particles *set, int32_t field);
+
+/* Return the stresses of the real particles to the yield surfaces of their phases' materials, as
+ * sph_material_plastic_return(): sigma, real_count packed symmetric, is the field or a copy of it;
+ * plastic_strain, real_count, may be NULL without hardening. Phases without yield surface are left
+ * alone. O(n), on the context's threads. SPH_ERR_ARG: sigma NULL, plastic_strain NULL where a law
+ * hardens. SPH_ERR_UNSUPPORTED: a law that asks for the stress across the plane; SPH_RETRY,
+ * SPH_ERR_CALLBACK: from materials. Since 0.1. */
+SPH_API sph_status sph_rhs_plastic_return(sph_rhs *rhs, sph_particles *set, double *sigma,
+                                          double *plastic_strain);
 
 /* Strain energy per undeformed volume of the real particles, by the materials of their phases, from
  * the deformation gradients (field F) that the last evaluation with SPH_TERM_FIRST_PIOLA left; the

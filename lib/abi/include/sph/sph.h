@@ -21,6 +21,8 @@
 #include <sph/plasticity.h>
 #include <sph/reference.h>
 #include <sph/rhs.h>
+#include <sph/shocks.h>
+#include <sph/smoothing.h>
 #include <sph/total_lagrangian.h>
 #include <sph/stress.h>
 #include <sph/stress_points.h>

@@ -48,6 +48,8 @@ typedef struct sph_total_lagrangian_options {
    * acceleration, so that a step takes one evaluation. BUTCHER and RKC, which need options of their
    * own, are for hosts that step the right-hand side themselves. */
   int32_t integrator;
+  int32_t
+      audit; /* nonzero: keep the ledger below; about twice the cost, LEAPFROG alone. Default 0 */
 } sph_total_lagrangian_options;
 
 /* Fill *options with the defaults. Since 0.1. */
@@ -59,7 +61,8 @@ SPH_API void sph_total_lagrangian_options_init_sized(sph_total_lagrangian_option
 /* Create. `material` is that of phase 0, retained; it must have a first Piola-Kirchhoff stress and
  * a sound speed. Other phases: sph_rhs_set_material() on the right-hand side. *out is NULL on
  * failure. SPH_ERR_ARG: options out of range or not finite, the material NULL. SPH_ERR_UNSUPPORTED:
- * an integrator the scheme does not run. SPH_ERR_VERSION, SPH_ERR_NOMEM. Since 0.1. */
+ * an integrator the scheme does not run, `audit` with another one than LEAPFROG. SPH_ERR_VERSION,
+ * SPH_ERR_NOMEM. Since 0.1. */
 SPH_API sph_status sph_total_lagrangian_create(sph_context *ctx,
                                                const sph_total_lagrangian_options *options,
                                                sph_material *material, sph_total_lagrangian **out);
@@ -105,6 +108,28 @@ SPH_API sph_status sph_total_lagrangian_time_step(sph_total_lagrangian *tl,
 SPH_API sph_status sph_total_lagrangian_step(sph_total_lagrangian *tl, sph_particles *set, double t,
                                              double dt);
 
+/* Checkpoints: the state of a run in a buffer of the host's, after which it continues bit for bit,
+ * in the same process or in another one. It holds X, V, X0, H, M, RHO, C of the
+ * real particles, and the acceleration that the leapfrog carries over, and what the integrator
+ * keeps of earlier steps. Roles, phases, ghosts, hooks and fields of the host's own are not in it:
+ * create with the same options and materials, fill roles and phases of a set with as many particles
+ * in the same order, and restore instead of starting. Numbers are written as this machine has them;
+ * a sum over all bytes guards them.
+ *
+ * *bytes receives the size. SPH_ERR_ARG: bytes NULL. SPH_ERR_STATE: not started; SPH_ERR_NOMEM.
+ * Since 0.1. */
+SPH_API sph_status sph_total_lagrangian_state_size(sph_total_lagrangian *tl, sph_particles *set,
+                                                   size_t *bytes);
+/* Write it. SPH_ERR_ARG: buffer NULL, not aligned as doubles are, or shorter than the size. Others
+ * as above. Since 0.1. */
+SPH_API sph_status sph_total_lagrangian_save(sph_total_lagrangian *tl, sph_particles *set,
+                                             void *buffer, size_t bytes);
+/* Take it up. SPH_ERR_ARG: buffer as above; not such a state, damaged, or of other options or
+ * another set: nothing has changed then but that the scheme must be started or restored again. What
+ * sph_neighbors_build_arrays() answers. Since 0.1. */
+SPH_API sph_status sph_total_lagrangian_restore(sph_total_lagrangian *tl, sph_particles *set,
+                                                const void *buffer, size_t bytes);
+
 /* Energies of the real particles, each a sum over them in order; add the potential of what the host
  * applies. */
 typedef struct sph_total_lagrangian_energies {
@@ -120,6 +145,42 @@ typedef struct sph_total_lagrangian_energies {
  * the step. *energies is untouched then. Since 0.1. */
 SPH_API sph_status sph_total_lagrangian_energy(sph_total_lagrangian *tl, sph_particles *set,
                                                double t, sph_total_lagrangian_energies *energies);
+
+/* Balances. The sums of the present state run over the real particles. What is added up since the
+ * first step after sph_total_lagrangian_start() is NaN before it and without `audit`: the work of
+ * gravity and of hooks (with the host's terms), what the viscosity takes, the impulses and moments
+ * of each. form: stress, hourglass control and viscosity, whose impulse is rounding where the form
+ * keeps momentum, and so is its moment with the defaults. The kicks of the leapfrog are exact in
+ * all of these, so that
+ *
+ *   kinetic + strain + hourglass - (the same at the start) + viscous - gravity - hooks
+ *                                            = energy_error, of the time steps alone (where the
+ *                                              forms derive from an energy)
+ *   momentum - momentum(start) - impulse_gravity - impulse_hooks - impulse_form
+ *                                            = momentum_error, rounding
+ *
+ * and likewise with the angular momentum about the origin: z in 2-D, none in 1-D. What the host
+ * writes into X or V between steps is in none of the sums and shows in the errors. */
+typedef struct sph_total_lagrangian_ledger {
+  size_t size; /* set by sph_total_lagrangian_ledger_init() */
+  double time, mass, kinetic, strain, hourglass;
+  double momentum[3], angular_momentum[3]; /* 2-D: angular_momentum[2] */
+  double viscous, gravity, hooks;
+  double impulse_gravity[3], impulse_hooks[3], impulse_form[3];
+  double moment_gravity[3], moment_hooks[3], moment_form[3];
+  double energy_error, momentum_error, angular_momentum_error; /* the latter: largest components */
+} sph_total_lagrangian_ledger;
+
+/* Fill *ledger with zeros. Since 0.1. */
+SPH_API void sph_total_lagrangian_ledger_init_sized(sph_total_lagrangian_ledger *ledger,
+                                                    size_t size);
+#define sph_total_lagrangian_ledger_init(l) \
+  sph_total_lagrangian_ledger_init_sized((l), sizeof(sph_total_lagrangian_ledger))
+
+/* The ledger at (t, set). Cost and errors as of sph_total_lagrangian_energy(); SPH_ERR_ARG also:
+ * *ledger not initialised, and it is untouched after a failure. Since 0.1. */
+SPH_API sph_status sph_total_lagrangian_balance(sph_total_lagrangian *tl, sph_particles *set,
+                                                double t, sph_total_lagrangian_ledger *ledger);
 
 #ifdef __cplusplus
 }
