@@ -233,7 +233,7 @@ static sph_status check_operands(const sph_neighbors *list, sph_operands *a, con
   return status == SPH_OK ? check_velocities(ctx, a) : status;
 }
 
-enum { SIGNAL_GRAIN = 256 };
+enum { SIGNAL_GRAIN = 256, SCRATCH_RECORDS = 0 /* of the list, as in every loop over pairs */ };
 
 static sph_status run_signals(signal_job *job, double factor, double *dt) {
   sph_context *ctx = job->list->base.ctx;
@@ -262,12 +262,11 @@ sph_status sph_signal_step(sph_neighbors *list, const sph_operands *a, double co
   if (status != SPH_OK) return status;
   const size_t packed = sphi_mul((size_t)job.a.n, 2 * (size_t)job.a.dim);
   const size_t bytes = sphi_mul(packed + (size_t)job.a.rows, sizeof(double));
-  job.packed = sphi_alloc(ctx, bytes);
-  if (!job.packed) return SPH_ERR_NOMEM;
+  status = sphi_buffer_reserve(ctx, &list->scratch[SCRATCH_RECORDS], bytes);
+  if (status != SPH_OK) return status;
+  job.packed = list->scratch[SCRATCH_RECORDS].ptr;
   job.speed = job.packed + packed;
-  status = run_signals(&job, courant, dt);
-  sphi_free(ctx, job.packed, bytes);
-  return status;
+  return run_signals(&job, courant, dt);
 }
 
 /* ---- change of density ------------------------------------------------------------------- */
