@@ -1,5 +1,5 @@
 /* Steps by signals between neighbours and by the change of density. */
-#include "../check.h"
+#include "../oom.h"
 
 #include <stdlib.h>
 
@@ -110,11 +110,10 @@ static void test_brute_force(void **state) {
 static void test_pair(void **state) {
   (void)state;
   const double x[4] = {0.0, 0.0, 0.3, 0.4}, v[4] = {3.0, 4.0, 0.0, 0.0};
-  sph_context *ctx = NULL;
+  sph_context *ctx = oom_context();
   sph_neighbors *list = NULL;
   sph_operands a;
   double dt = 0.0;
-  check_ok(sph_context_create(NULL, &ctx));
   check_ok(sph_neighbors_create(ctx, NULL, &list));
   check_ok(sph_neighbors_build_arrays(list, 2, 2, x, NULL, 0.5));
   sph_operands_init(&a);
@@ -128,7 +127,10 @@ static void test_pair(void **state) {
   check_close(dt, 0.25 * 0.5 / 7.0, 1e-17);
   const double across[4] = {4.0, -3.0, 0.0, 0.0}; /* no signal across the pair */
   a.v = across;
+  oom.countdown = 0; /* from now on every allocation fails: none is asked for */
   check_ok(sph_signal_step(list, &a, 0.25, &dt));
+  assert_int_equal(oom.refused, 0);
+  oom.countdown = -1;
   check_close(dt, 0.25 * 0.5 / 2.0, 1e-16);
   sph_neighbors_destroy(list);
   sph_context_destroy(ctx);

@@ -374,7 +374,8 @@ SPH_API sph_status sph_cfl_step(const sph_particles *set, double cfl, double *dt
  * min (v + c) / h, which is no time; he takes courant in 0.1 .. 0.3. Needs x, v, h and c (NULL: c0,
  * which may be 0) of the operands. Errors as above, also SPH_ERR_STATE and SPH_ERR_STALE of the
  * list; *dt is untouched then. SPH_ERR_NOMEM, SPH_ERR_VERSION. O(pairs), on the context's threads,
- * same bits for any number; 8 bytes a row, given back. Since 0.1. */
+ * same bits for any number; memory that the list keeps, so that a repeated call allocates none.
+ * Since 0.1. */
 SPH_API sph_status sph_signal_step(sph_neighbors *list, const sph_operands *a, double courant,
                                    double *dt);
 
