@@ -17,7 +17,8 @@ static inline void radial_report(const radial *a, const char *quantity, double m
 }
 
 /* What the steps change the total energy by, at the default cfl: cold gas, shocks without limit of
- * strength, in 3-D a handful of particles across. A thousandth; it falls with more particles. */
+ * strength, in 3-D a handful of particles across. A thousandth; it falls with more particles for
+ * Noh, not for Sedov. */
 static inline int radial_check_energy(const radial *a) {
   return radial_bound(a, "energy_drift", fabs(a->ledger.energy_error / a->energy_start), -1, 1e-3,
                       "conservation");
